@@ -20,7 +20,9 @@ bool is_exhaustion(int error) {
 }  // namespace
 
 void throw_environment_error(const std::string& message, int error) {
-  const std::string text = fmt::format("{}: {}", message, std::strerror(error));
+  std::string text = fmt::format("{}: {}", message, std::strerror(error));
+  // The number tells a container's user from the owner of a mounted folder.
+  if (error == EACCES || error == EPERM) text += fmt::format(" (user {})", ::geteuid());
   if (is_exhaustion(error)) throw ResourcesExhausted(text);
   throw EnvironmentError(text);
 }

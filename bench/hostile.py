@@ -47,12 +47,12 @@ class Throng:
             [program, "keys", "create", "me", "--data", data, "--scope", "admin"],
             check=True,
             capture_output=True,
-            text=True,
+            encoding="utf-8",
         ).stdout.split()[-1]
         self.process, self.port = start_service(program, data, "--workers", "1")
 
     def resident_mb(self):
-        for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
+        for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text(encoding="utf-8").splitlines():
             if line.startswith("VmRSS"):
                 return int(line.split()[1]) / 1024
         return 0
@@ -80,13 +80,13 @@ class Nginx:
                 wait_until(self.answers)
                 return
             except RuntimeError:
-                error = (folder / "error.log").read_text() if (folder / "error.log").exists() else ""
+                error = (folder / "error.log").read_text(encoding="utf-8") if (folder / "error.log").exists() else ""
                 if not attempts_left or "Address already in use" not in error:
                     raise
 
     def start(self, folder, tls, throng_port):
         self.port, self.plain_port = free_ports(2)
-        text = (ROOT / "docker" / "nginx.conf").read_text()
+        text = (ROOT / "docker" / "nginx.conf").read_text(encoding="utf-8")
         for before, after in (
             ("listen 8080;", f"listen 127.0.0.1:{self.plain_port};"),
             ("listen 8443 ssl", f"listen 127.0.0.1:{self.port} ssl"),
@@ -101,7 +101,7 @@ class Nginx:
                 raise RuntimeError(f"docker/nginx.conf has no {before}")
             text = text.replace(before, after)
         conf = folder / "nginx.conf"
-        conf.write_text(text)
+        conf.write_text(text, encoding="utf-8")
         # As root its workers would be nobody, who may not enter this folder.
         settings = "daemon off;" + (" user root;" if os.geteuid() == 0 else "")
         self.process = subprocess.Popen(

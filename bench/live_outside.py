@@ -34,16 +34,16 @@ def main():
     }
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "job.json"
-        file.write_text(json.dumps(job))
+        file.write_text(json.dumps(job), encoding="utf-8")
         command = [given.throng, "live", str(file), "--port", "0", "--factor", str(given.factor)]
         begun = time.monotonic()
-        flight = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        flight = subprocess.Popen(command, stderr=subprocess.PIPE, encoding="utf-8")
         url = re.search(r"ws://\S+", flight.stderr.readline())[0]
         client = subprocess.Popen(
             ["node", ROOT / "tests/cli/foxglove_client.mjs", ROOT / "build/web/node_modules", url],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            text=True,
+            encoding="utf-8",
         )
         try:
             measure(client, begun, given)

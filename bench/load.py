@@ -81,7 +81,7 @@ class Server:
         return json.loads(self.ask("GET", f"/v1/jobs/{job}")[1])["state"]
 
     def memory_mib(self):
-        for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
+        for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text(encoding="utf-8").splitlines():
             if line.startswith("VmRSS"):
                 return int(line.split()[1]) / 1024
         return 0
@@ -95,7 +95,7 @@ def wrk(url, seconds=10, connections=64):
     if not shutil.which("wrk"):
         return "wrk is not there"
     out = subprocess.run(
-        ["wrk", "-t2", f"-c{connections}", f"-d{seconds}s", "--latency", url], capture_output=True, text=True
+        ["wrk", "-t2", f"-c{connections}", f"-d{seconds}s", "--latency", url], capture_output=True, encoding="utf-8"
     ).stdout
     rate = re.search(r"Requests/sec:\s*([\d.]+)", out)
     p99 = re.search(r"99%\s*([\d.]+\w+)", out)
@@ -118,7 +118,8 @@ http {{ access_log off; sendfile on; tcp_nopush on; keepalive_requests 1000000;
   scgi_temp_path {folder}/s;
   server {{ listen 127.0.0.1:{self.port}; root {root};
     location = /status {{ default_type application/json; return 200 '{text}'; }} }} }}
-"""
+""",
+            encoding="utf-8",
         )
         self.process = subprocess.Popen(
             ["nginx", "-c", self.folder / "nginx.conf", "-g", "daemon off;"], stderr=subprocess.DEVNULL
@@ -142,7 +143,7 @@ app.listen(+process.argv[2], '127.0.0.1');
     def __init__(self, folder, text, root):
         self.port = free_port()
         subprocess.run(["npm", "install", "--silent", "--prefix", folder, "express@4"], check=True, capture_output=True)
-        (pathlib.Path(folder) / "server.js").write_text(self.SCRIPT)
+        (pathlib.Path(folder) / "server.js").write_text(self.SCRIPT, encoding="utf-8")
         self.process = subprocess.Popen(["node", "server.js", str(self.port), text, str(root)], cwd=folder)
         time.sleep(1.5)
 
@@ -234,9 +235,9 @@ def part_archive(arguments, folder):
             file.write(block)
             digest.update(block)
             crc = zlib.crc32(block, crc)
-    manifest = json.loads((dataset / "manifest.json").read_text())
+    manifest = json.loads((dataset / "manifest.json").read_text(encoding="utf-8"))
     manifest["files"].append({"path": "zz_big.bin", "bytes": GIB, "sha256": digest.hexdigest(), "crc32": f"{crc:08x}"})
-    (dataset / "manifest.json").write_text(json.dumps(manifest))
+    (dataset / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
 
     def speed(url):
         rates = []
@@ -244,7 +245,7 @@ def part_archive(arguments, folder):
             out = subprocess.run(
                 ["curl", "-s", "-o", "/dev/null", "-w", "%{speed_download} %{size_download}", url],
                 capture_output=True,
-                text=True,
+                encoding="utf-8",
             ).stdout.split()
             assert int(out[1]) >= GIB, out
             rates.append(float(out[0]) / 1e6)

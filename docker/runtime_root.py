@@ -29,7 +29,7 @@ FOLDERS = ["/usr/share/fonts/truetype/dejavu", "/etc/fonts", "/usr/share/fontcon
 
 
 def output(*command):
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    return subprocess.run(command, check=True, capture_output=True, encoding="utf-8").stdout
 
 
 def loaded_by(files):
@@ -46,7 +46,7 @@ def owner_of(path):
     """The package of a file; dpkg may know it by its place before or after /lib was merged into /usr/lib."""
     real = os.path.realpath(path)
     for name in {path, real, real.removeprefix("/usr"), path.removeprefix("/usr")}:
-        done = subprocess.run(["dpkg-query", "-S", name], capture_output=True, text=True)
+        done = subprocess.run(["dpkg-query", "-S", name], capture_output=True, encoding="utf-8")
         if done.returncode == 0:
             return done.stdout.split(":")[0].split(",")[0]
     return None
@@ -86,13 +86,13 @@ def describe(package, root):
     control = output("dpkg-query", "-s", package)
     folder = root / "var/lib/dpkg/status.d"
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / package).write_text(control)
+    (folder / package).write_text(control, encoding="utf-8")
     papers = pathlib.Path("/usr/share/doc") / package / "copyright"
-    text = papers.read_text(errors="replace") if papers.exists() else ""
+    text = papers.read_text(errors="replace", encoding="utf-8") if papers.exists() else ""
     if text:
         target = root / papers.relative_to("/")
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(text)
+        target.write_text(text, encoding="utf-8")
     version = re.search(r"^Version: (.*)$", control, re.M)[1]
     return {
         "SPDXID": f"SPDXRef-{re.sub(r'[^A-Za-z0-9.-]', '-', package)}",
@@ -115,7 +115,7 @@ def describe(package, root):
 
 def main(root, base_packages, programs):
     root = pathlib.Path(root)
-    base = set(pathlib.Path(base_packages).read_text().split())
+    base = set(pathlib.Path(base_packages).read_text(encoding="utf-8").split())
     # Mesa's drivers, of software and of GPUs, are names of one file.
     drivers = sorted((LIBRARIES / "dri").glob("*_dri.so"))
     opened = [str(path) for path in [*map(LIBRARIES.joinpath, OPENED), *drivers] if path.exists()]
@@ -142,7 +142,7 @@ def main(root, base_packages, programs):
     }
     target = root / "usr/share/doc/throng-image/packages.spdx.json"
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(json.dumps(document, indent=1) + "\n")
+    target.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     print(f"{len(wanted)} files of {len(rows)} packages")
 
 

@@ -11,6 +11,7 @@ import argparse
 import dataclasses
 import json
 import math
+import sys
 
 import learning
 import networks
@@ -33,7 +34,12 @@ def real_images(images, kind):
     for image in images:
         if kind == "detector" and image.boxes is None:
             raise throng.DatasetError(f"{image.path}: found heads only, expected boxes, which a detector is scored by")
-        yield image.image(), image.boxes, image.ignored, image.count
+        try:
+            pixels = image.image()
+        except throng.DatasetError as error:
+            print(f"skipped {error}", file=sys.stderr)
+            continue
+        yield pixels, image.boxes, image.ignored, image.count
 
 
 def tensor_of(pixels, scale, device):

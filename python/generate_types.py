@@ -185,20 +185,22 @@ from typing import Any, Literal, NotRequired, TypedDict
 
 
 def generated() -> dict[Path, str]:
-    schema = json.loads((ROOT / "spec/job/job.schema.json").read_text())
-    document = json.loads((ROOT / "server/openapi.json").read_text())
+    schema = json.loads((ROOT / "spec/job/job.schema.json").read_text(encoding="utf-8"))
+    document = json.loads((ROOT / "server/openapi.json").read_text(encoding="utf-8"))
     package = ROOT / "python/throng"
     return {package / "job.py": JobTypes(schema).text(), package / "api_types.py": ApiTypes(document).text()}
 
 
 def main() -> int:
-    stale = [path for path, text in generated().items() if not path.exists() or path.read_text() != text]
+    stale = [
+        path for path, text in generated().items() if not path.exists() or path.read_text(encoding="utf-8") != text
+    ]
     if "--check" in sys.argv[1:]:
         for path in stale:
             print(f"{path.relative_to(ROOT)} is not what python/generate_types.py makes", file=sys.stderr)
         return 1 if stale else 0
     for path, text in generated().items():
-        path.write_text(text)
+        path.write_text(text, encoding="utf-8")
     return 0
 
 

@@ -26,7 +26,9 @@ PRECOMPILED = """algorithm array atomic bit charconv chrono cmath condition_vari
 
 def parse(flags, file):
     """The compiler's messages about a file, empty for none."""
-    result = subprocess.run(["clang++", *flags, "-fsyntax-only", "-w", file], capture_output=True, text=True, cwd=ROOT)
+    result = subprocess.run(
+        ["clang++", *flags, "-fsyntax-only", "-w", file], capture_output=True, encoding="utf-8", cwd=ROOT
+    )
     return result.stderr if result.returncode else ""
 
 
@@ -36,14 +38,14 @@ def main():
     files = (
         sys.argv[2:]
         or subprocess.run(
-            ["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True, cwd=ROOT
+            ["git", "ls-files", "*.cpp"], check=True, capture_output=True, encoding="utf-8", cwd=ROOT
         ).stdout.split()
     )
     files = [file for file in files if (ROOT / file).exists() and str(ROOT / file) not in apart]
     flags = [*macros_and_folders(build), f"-I{ROOT}/tests/fuzz"]
     with tempfile.TemporaryDirectory() as folder:
         header = pathlib.Path(folder) / "libraries.h"
-        header.write_text("".join(f"#include <{name}>\n" for name in PRECOMPILED))
+        header.write_text("".join(f"#include <{name}>\n" for name in PRECOMPILED), encoding="utf-8")
         compiled = str(header.with_suffix(".pch"))
         subprocess.run(["clang++", *flags, "-w", "-x", "c++-header", header, "-o", compiled], check=True, cwd=ROOT)
         flags += ["-include-pch", compiled]

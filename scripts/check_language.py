@@ -303,7 +303,7 @@ def main():
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         check=True,
     )
     suffixes = CODE + (".md", ".py", ".sh", ".cmake", "CMakeLists.txt")

@@ -6,7 +6,7 @@ import shlex
 
 def cpp_entries(build):
     """The entries of the build's compile_commands.json that are C++: assembly and C have other flags."""
-    entries = json.loads((pathlib.Path(build) / "compile_commands.json").read_text())
+    entries = json.loads((pathlib.Path(build) / "compile_commands.json").read_text(encoding="utf-8"))
     return [entry for entry in entries if pathlib.Path(entry["file"]).suffix in (".cpp", ".cxx")]
 
 

@@ -10,7 +10,7 @@ def save_files(folder, text, next_block):
     """Saves the files that the text before a block asks for: their content is given in the text, or is the block."""
     for name, content in SAVED.findall(text):
         (folder / name).parent.mkdir(exist_ok=True)
-        (folder / name).write_text(content or next_block)
+        (folder / name).write_text(content or next_block, encoding="utf-8")
 
 
 def read_blocks(page):

@@ -32,7 +32,7 @@ class Source:
     def __init__(self, path):
         self.path = path
         self.module = path.split("/")[0]
-        text = (ROOT / path).read_text()
+        text = (ROOT / path).read_text(encoding="utf-8")
         self.uses_cli11 = "#include <CLI/" in text
         text = COMMENT.sub(" ", text)
         self.lines = text.count("\n")
@@ -82,14 +82,16 @@ def joined(sources, count):
 def included(path):
     """The line that includes a source; each program's main() under a name of its own."""
     line = f'#include "{path}"\n'
-    if "\nint main(" not in path.read_text():
+    if "\nint main(" not in path.read_text(encoding="utf-8"):
         return line
     return f"#define main main_of_{path.stem}\n{line}#undef main\n"
 
 
 def main():
     count, build, folder = int(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]).absolute()
-    listed = subprocess.run(["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
+    listed = subprocess.run(
+        ["git", "ls-files", "*.cpp"], check=True, capture_output=True, encoding="utf-8", cwd=ROOT
+    ).stdout
     alone = with_own_standard(build)
     apart = {entry["file"] for entry in alone}
     sources = [
@@ -108,7 +110,7 @@ def main():
     without = [source for source in sources if not source.uses_cli11]
     for number, unit in enumerate(joined(with_cli11, 1) + joined(without, count)):
         file = folder / f"joined_{number}.cpp"
-        file.write_text("".join(included(ROOT / source.path) for source in unit))
+        file.write_text("".join(included(ROOT / source.path) for source in unit), encoding="utf-8")
         entries.append(
             {
                 "directory": str(folder),
@@ -116,7 +118,7 @@ def main():
                 "arguments": ["clang++", *flags, "-c", str(file), "-o", str(file.with_suffix(".o"))],
             }
         )
-    (folder / "compile_commands.json").write_text(json.dumps(entries, indent=1))
+    (folder / "compile_commands.json").write_text(json.dumps(entries, indent=1), encoding="utf-8")
     print("\n".join(entry["file"] for entry in entries))
 
 

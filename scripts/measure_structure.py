@@ -39,7 +39,9 @@ def language_findings(path, text):
 
 def git_files(root):
     """Paths of the checkout's C++ files."""
-    listed = subprocess.run(["git", "ls-files", "*.cpp", "*.h"], check=True, capture_output=True, text=True, cwd=root)
+    listed = subprocess.run(
+        ["git", "ls-files", "*.cpp", "*.h"], check=True, capture_output=True, encoding="utf-8", cwd=root
+    )
     return [path for path in listed.stdout.split() if (root / path).exists()]
 
 
@@ -110,7 +112,7 @@ HEAD = [
 
 def measure(root):
     """Rows of the table by module, and their sum."""
-    texts = {path: (root / path).read_text(errors="replace") for path in git_files(root)}
+    texts = {path: (root / path).read_text(errors="replace", encoding="utf-8") for path in git_files(root)}
     product = {path: text for path, text in texts.items() if path.split("/")[0] not in APART}
     includes = {path: re.findall(r'^#include "([^"]+)"', text, re.M) for path, text in product.items()}
     structure = module_rules.Structure(root)

@@ -93,7 +93,7 @@ class Structure:
 
     def text(self, path):
         file = self.root / path
-        return file.read_text(errors="replace") if file.is_file() else None
+        return file.read_text(errors="replace", encoding="utf-8") if file.is_file() else None
 
     @functools.cached_property
     def files(self):

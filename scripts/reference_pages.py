@@ -192,7 +192,7 @@ class Schema:
 
 def file_page(kind):
     file, task = FILES[kind]
-    document = json.loads((ROOT / file).read_text())
+    document = json.loads((ROOT / file).read_text(encoding="utf-8"))
     schema = Schema(document, document.get("definitions", {}))
     text = f"# Fields of a file: {kind}\n\n{NOTE.format(f'`{file}`')}"
     text += f"[{task.partition('#')[0]}](../{task}) explains the task. `throng schema {kind}` prints the schema, "
@@ -247,7 +247,7 @@ def route_text(schema, method, path, route):
 
 
 def api_page():
-    document = json.loads((ROOT / "server/openapi.json").read_text())
+    document = json.loads((ROOT / "server/openapi.json").read_text(encoding="utf-8"))
     schema = Schema(document, document["components"]["schemas"])
     text = (
         f"# Routes of the HTTP API\n\n{NOTE.format('`server/openapi.json`, which a service sends as `/openapi.json`')}"
@@ -297,7 +297,7 @@ def entries_of(lines):
 def command_text(throng, words):
     """The section of a command and those of the commands below it."""
     environment = {**os.environ, "THRONG_PEOPLE": "$THRONG_PEOPLE"}
-    done = subprocess.run([throng, "help", *words], capture_output=True, text=True, check=True, env=environment)
+    done = subprocess.run([throng, "help", *words], capture_output=True, encoding="utf-8", check=True, env=environment)
     summary, usage, *lines = done.stdout.replace(str(throng), "throng").splitlines()
     sections, notes = {}, []
     for line in filter(None, lines):
@@ -326,7 +326,9 @@ def cli_page(throng):
 
 def pages(throng):
     """The text of each page by its name."""
-    vocabulary = subprocess.run([throng, "crowd", "--list", "--markdown"], capture_output=True, text=True, check=True)
+    vocabulary = subprocess.run(
+        [throng, "crowd", "--list", "--markdown"], capture_output=True, encoding="utf-8", check=True
+    )
     made = {"cli": cli_page(throng), "api": api_page(), "crowd_vocabulary": vocabulary.stdout}
     return {**made, **{kind: file_page(kind) for kind in FILES}}
 
@@ -337,11 +339,11 @@ def main():
     stale = []
     for name, text in pages(throng).items():
         page = FOLDER / f"{name}.md"
-        if page.exists() and page.read_text() == text:
+        if page.exists() and page.read_text(encoding="utf-8") == text:
             continue
         stale.append(f"docs/reference/{name}.md")
         if "--check" not in sys.argv:
-            page.write_text(text)
+            page.write_text(text, encoding="utf-8")
     if "--check" not in sys.argv:
         print("\n".join(f"wrote {page}" for page in stale) or "nothing has changed")
     elif stale:

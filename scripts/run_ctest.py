@@ -37,7 +37,7 @@ def run(preset, junit, arguments):
 def read_labels(preset):
     """Labels of every test of a preset, by name."""
     text = subprocess.run(
-        ["ctest", "--preset", preset, "--show-only=json-v1"], cwd=ROOT, capture_output=True, text=True
+        ["ctest", "--preset", preset, "--show-only=json-v1"], cwd=ROOT, capture_output=True, encoding="utf-8"
     ).stdout
     found = {}
     for test in json.loads(text[text.index("{") :])["tests"]:
@@ -52,7 +52,7 @@ def repeat_alone(step, preset, tests, failed):
     passed = True
     for name in failed:
         log = CHECKS / "flaky" / f"{step}.{name}.log"
-        log.write_text(tests[name]["output"])
+        log.write_text(tests[name]["output"], encoding="utf-8")
         print(f"== {name} failed; it waits for others, so it runs once more, alone (first output: {log})", flush=True)
         pattern = "^" + name.replace(".", r"\.") + "$"
         status, again = run(preset, CHECKS / "repeated.xml", ["-R", pattern])
@@ -75,7 +75,7 @@ def main():
         labels = read_labels(preset)
         if all("waits" in labels[name] for name in failed) and repeat_alone(step, preset, tests, failed):
             status = 0
-    with (CHECKS / "tests.jsonl").open("a") as file:
+    with (CHECKS / "tests.jsonl").open("a", encoding="utf-8") as file:
         for name, test in tests.items():
             line = {"step": step, "name": name, "wall_s": test["wall_s"], "outcome": test["outcome"]}
             file.write(json.dumps(line) + "\n")

@@ -60,7 +60,7 @@ def make_outputs(printed, text, figures, count):
 
 def run_notebook(path):
     """The notebook with the outputs of this run, and the namespace of its cells."""
-    notebook = json.loads(path.read_text())
+    notebook = json.loads(path.read_text(encoding="utf-8"))
     import matplotlib.pyplot as plt
 
     plt.close("all")
@@ -94,7 +94,7 @@ def main():
             os.chdir(folder)
             notebook, _ = run_notebook(path)
             os.chdir(ROOT)
-        path.write_text(json.dumps(notebook, indent=1, ensure_ascii=False) + "\n")
+        path.write_text(json.dumps(notebook, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         print(path.relative_to(ROOT))
 
 

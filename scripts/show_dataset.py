@@ -22,7 +22,7 @@ def density_sum(path):
 
 
 def main(folder):
-    coco = json.loads((folder / "annotations/instances.json").read_text())
+    coco = json.loads((folder / "annotations/instances.json").read_text(encoding="utf-8"))
     images = coco["images"]
     people = {category["id"] for category in coco["categories"] if category["name"] == "person"}
     annotations = [annotation for annotation in coco["annotations"] if annotation["category_id"] in people]
@@ -41,7 +41,7 @@ def main(folder):
         )
 
     for file in sorted((folder / "metrics").glob("run*.json")):
-        metrics = json.loads(file.read_text())
+        metrics = json.loads(file.read_text(encoding="utf-8"))
         escaped = metrics["people"] - metrics["not_escaped"] - metrics["casualties"]
         print(
             f"escaped ({file.stem})     {escaped} of {metrics['people']} people in {metrics['duration_s']:.0f} s,"

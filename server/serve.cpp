@@ -21,6 +21,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/writable.h"
 #include "jobs/bucket/access.h"
 #include "jobs/queue/confine/file_fence.h"
 #include "jobs/queue/confine/machine_memory.h"
@@ -143,7 +144,16 @@ void check_folders(const ServeOptions& options) {
     if (fs::exists(folder) && !fs::is_directory(folder)) {
       throw InputError(Problem{option, "", folder.string() + ", which is a file", "a folder"});
     }
+    if (folder.empty()) continue;
+    make_folders(folder);
+    require_writable_folder(folder);
   }
+  // They belong to another user where a container ran as root once.
+  for (const char* name :
+       {"calibrations", "check", "jobs", "live", "scenarios", "studies", "uploads"}) {
+    if (fs::exists(options.data / name)) require_writable_folder(options.data / name);
+  }
+  require_writable_file(options.data / "audit.log");
 }
 
 /// Makes a first key where other machines can reach the service. Throws InputError when there are

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/json/json_text.h"
+#include "base/resource_exhaustion.h"
 #include "spec/annotate/ground_truth.h"
 #include "spec/annotate/license.h"
 
@@ -45,8 +45,7 @@ class Output {
  private:
   void require_good() const {
     if (stream_) return;
-    throw EnvironmentError(
-        fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+    throw_write_error(path_, errno);
   }
 
   fs::path path_;
@@ -215,10 +214,7 @@ CocoShardWriter::CocoShardWriter(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) fs::remove(folder / kShardFile, error);
-  if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot write into {}: {}", folder.string(), error.message()));
-  }
+  if (error) throw_write_error(folder, error.value());
   files_ = std::make_unique<Files>(folder);
 }
 

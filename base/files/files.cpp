@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/files/staging.h"
 #include "base/files/untrusted_folders.h"
+#include "base/files/writable.h"
 #include "base/resource_exhaustion.h"
 
 namespace throng {
@@ -44,6 +45,13 @@ void sync_tree(const fs::path& folder) {
   sync_path(folder);
 }
 
+// A pipe, a terminal, /dev/null: a file that took its name would not reach who reads it.
+bool is_stream(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 fs::path parent_folder(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
@@ -55,7 +63,11 @@ void make_folders(const fs::path& folder) {
   make_folders(folder.parent_path());
   std::error_code error;
   fs::create_directory(folder, error);
-  if (error) fail("create", folder, error.value());
+  if (error) {
+    if (fs::exists(folder)) require_writable_folder(folder);  // says that it is a file
+    require_writable_folder(parent_folder(folder));
+    fail("create", folder, error.value());
+  }
   sync_path(parent_folder(folder));
 }
 
@@ -113,14 +125,19 @@ bool is_within(const fs::path& path, const fs::path& folder) {
 }
 
 StagedFile::StagedFile(fs::path final_path)
-    : final_(std::move(final_path)), staging_(staging_path(final_)) {
+    : final_(std::move(final_path)), staging_(is_stream(final_) ? final_ : staging_path(final_)) {
   make_folders(parent_folder(final_));
+  errno = 0;
   file_.open(staging_, std::ios::binary);
-  if (!file_) fail("write", staging_);
+  if (file_) return;
+  const int reason = errno;
+  require_writable_folder(parent_folder(final_));
+  fail("write", staging_, reason);
 }
 
 StagedFile::~StagedFile() {
   file_.close();
+  if (staging_ == final_) return;
   std::error_code ignored;
   fs::remove(staging_, ignored);
 }
@@ -138,6 +155,7 @@ void StagedFile::flush() {
 void StagedFile::commit() {
   file_.close();
   if (!file_) fail("write", staging_);
+  if (staging_ == final_) return;
   sync_path(staging_);
   const std::error_code error = publish_staged(staging_, final_);
   if (error) fail("write", final_, error.value());
@@ -158,7 +176,9 @@ StagingFolder::StagingFolder(fs::path final_path)
   make_folders(parent_folder(final_));
   std::error_code error;
   fs::create_directory(staging_, error);
-  if (error) fail("create", staging_, error.value());
+  if (!error) return;
+  require_writable_folder(parent_folder(final_));
+  fail("create", staging_, error.value());
 }
 
 StagingFolder::~StagingFolder() {

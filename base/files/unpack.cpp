@@ -2,14 +2,12 @@
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cerrno>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,7 +16,7 @@
 #include "base/error.h"
 #include "base/files/read_only_file.h"
 #include "base/resource_exhaustion.h"
-#include "base/text/words.h"
+#include "base/text/portable_name.h"
 
 namespace throng {
 
@@ -47,41 +45,19 @@ std::string printable(std::string_view text) {
                            std::move(found), std::move(expected)});
 }
 
-// Names that stand for devices on other systems, with or without a suffix.
-bool is_reserved(std::string_view component) {
-  constexpr std::array<std::string_view, 4> kDevices = {"con", "prn", "aux", "nul"};
-  const std::string stem = lower_case(component.substr(0, component.find('.')));
-  if (std::find(kDevices.begin(), kDevices.end(), stem) != kDevices.end()) return true;
-  constexpr std::size_t kNumbered = 4;
-  return stem.size() == kNumbered && (stem.starts_with("com") || stem.starts_with("lpt")) &&
-         std::isdigit(static_cast<unsigned char>(stem.back())) != 0;
-}
-
-bool is_plain(char c) {
-  return c >= ' ' && c <= '~' && std::string_view("\\:*?\"<>|").find(c) == std::string_view::npos;
-}
-
 /// An entry's path in its parts. Throws InputError.
 std::vector<std::string> split_path(std::string_view name, const UnpackLimits& limits) {
   if (name.size() > limits.max_path_bytes) {
     refuse(name, fmt::format("a path of {} characters", name.size()),
            fmt::format("at most {}", limits.max_path_bytes));
   }
-  if (name.starts_with('/') || !std::all_of(name.begin(), name.end(), is_plain)) {
-    refuse(name, "this path", kPlainName);
-  }
+  if (auto fault = path_fault(name)) refuse(name, std::move(*fault), kPlainName);
   std::vector<std::string> parts;
   for (std::size_t from = 0; from < name.size();) {
     const std::size_t to = std::min(name.find('/', from), name.size());
     const std::string_view part = name.substr(from, to - from);
     from = to + 1;
-    if (part.empty() || part == ".") continue;
-    if (part == "..") refuse(name, "a path with \"..\"", kPlainName);
-    if (part.ends_with('.') || part.ends_with(' ') || part.starts_with(' ')) {
-      refuse(name, "a name that begins or ends with a space or ends with a dot", kPlainName);
-    }
-    if (is_reserved(part)) refuse(name, "a name that is reserved for devices", kPlainName);
-    parts.emplace_back(part);
+    if (!part.empty() && part != ".") parts.emplace_back(part);
   }
   if (parts.size() > limits.max_depth) {
     refuse(name, fmt::format("a path of {} levels", parts.size()),
@@ -90,40 +66,15 @@ std::vector<std::string> split_path(std::string_view name, const UnpackLimits& l
   return parts;
 }
 
-/// Detects two entries of the same name, also for case-insensitive systems.
-class Names {
- public:
-  /// Notes the entry and the folders it lies in.
-  void add(std::string_view name, const std::vector<std::string>& parts, bool is_folder) {
-    std::string path;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      path += (i == 0 ? "" : "/") + parts[i];
-      const bool folder = is_folder || i + 1 < parts.size();
-      const auto [known, is_new] = names_.try_emplace(lower_case(path), Known{path, folder});
-      if (is_new) {
-        folders_ += folder ? 1 : 0;
-        continue;
-      }
-      if (known->second.path != path) {
-        refuse(name, fmt::format("also \"{}\"", printable(known->second.path)),
-               "names that differ in more than their case");
-      }
-      if (!folder || !known->second.is_folder)
-        refuse(name, "the same path again", "each path once");
-    }
-  }
-
-  /// Number of folders, those that entries only lie in included.
-  std::size_t folders() const { return folders_; }
-
- private:
-  struct Known {
-    std::string path;
-    bool is_folder;
-  };
-  std::map<std::string, Known> names_;
-  std::size_t folders_ = 0;
-};
+/// Notes an entry; entries of the same path are refused, also for case-insensitive systems.
+void note(std::string_view name, const std::vector<std::string>& parts, bool is_folder,
+          DistinctPaths& paths) {
+  const auto clash = paths.add(fmt::format("{}", fmt::join(parts, "/")), is_folder);
+  if (!clash) return;
+  if (clash->is_equal) refuse(name, "the same path again", "each path once");
+  refuse(name, fmt::format("also \"{}\"", printable(clash->earlier)),
+         "names that differ in more than their case");
+}
 
 /// Skipped entries, which macOS adds by itself.
 bool is_clutter(const std::vector<std::string>& parts) {
@@ -189,7 +140,7 @@ class Unpacking {
     require_known_compression(name);
     // Skipped entries, and entries that should have no bytes, count too: reading past them is work.
     if (is_clutter(parts)) return pass_on(name, [](std::string_view) {});
-    names_.add(name, parts, type == AE_IFDIR);
+    note(name, parts, type == AE_IFDIR, names_);
     if (names_.folders() > limits_.max_folders) {
       refuse(name, fmt::format("more than {} folders", limits_.max_folders), "fewer folders");
     }
@@ -253,7 +204,7 @@ class Unpacking {
   const UnpackLimits& limits_;
   std::int64_t packed_bytes_;
   ArchiveHandle archive_;
-  Names names_;
+  DistinctPaths names_;
   Unpacked result_;
   std::vector<char> block_ = std::vector<char>(64 << 10);
 };
@@ -301,7 +252,7 @@ void from_json(const nlohmann::json& value, UnpackLimits& limits) {
 
 Unpacked copy_unpacked(const fs::path& from, const fs::path& to, const UnpackLimits& limits) {
   Unpacked copied;
-  Names names;
+  DistinctPaths names;
   std::size_t entries = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from)) {
     const std::string name = entry.path().lexically_relative(from).generic_string();
@@ -311,7 +262,7 @@ Unpacked copy_unpacked(const fs::path& from, const fs::path& to, const UnpackLim
     if (!is_folder && type != fs::file_type::regular) {
       refuse(name, "no plain file", "files and folders");
     }
-    names.add(name, parts, is_folder);
+    note(name, parts, is_folder, names);
     if (++entries > limits.max_entries + limits.max_folders ||
         names.folders() > limits.max_folders) {
       refuse(name, "more files or folders",

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "base/text/portable_name.h"
+
 namespace throng {
 
 std::string slug(std::string_view name) {
@@ -18,7 +20,8 @@ std::string slug(std::string_view name) {
     if (text.size() == kMaxNameBytes) break;
   }
   while (!text.empty() && text.back() == '-') text.pop_back();
-  return text.empty() ? "dataset" : text;
+  if (text.empty()) return "dataset";
+  return is_device_name(text) ? text + "-dataset" : text;
 }
 
 }  // namespace throng

@@ -7,7 +7,7 @@
 namespace throng {
 
 /// Converts a name to one for files or folders: at most 60 lower-case letters, digits and '-';
-/// "dataset" if nothing is left.
+/// "dataset" if nothing is left, and no device of Windows: "con" becomes "con-dataset".
 std::string slug(std::string_view name);
 
 }  // namespace throng

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/resource_exhaustion.h"
 #include "formats/dataset/comparison.h"
 
 namespace throng::formats {
@@ -49,7 +49,7 @@ void OutputStream::close() {
 
 void OutputStream::require_good() const {
   if (file_) return;
-  throw EnvironmentError(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+  throw_write_error(path_, errno);
 }
 
 void Output::written(const fs::path& path) const {

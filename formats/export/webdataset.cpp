@@ -16,6 +16,7 @@
 #include "base/files/files.h"
 #include "base/files/hash.h"
 #include "base/resource_exhaustion.h"
+#include "base/text/portable_name.h"
 #include "formats/export/makers.h"
 
 namespace throng::formats {
@@ -47,6 +48,12 @@ class TarFile {
   }
 
   void add(const std::string& name, std::string_view bytes) {
+    if (const auto clash = names_.add(name)) {
+      throw InputError(Problem{
+          path_.string(), "",
+          fmt::format("\"{}\" and \"{}\", one file on Windows and macOS", clash->earlier, name),
+          "cameras whose ids differ in more than their case"});
+    }
     constexpr int kMode = 0644;
     const std::unique_ptr<archive_entry, decltype(&archive_entry_free)> entry(archive_entry_new(),
                                                                               archive_entry_free);
@@ -72,6 +79,7 @@ class TarFile {
 
   fs::path path_;
   std::unique_ptr<archive, CloseArchive> tar_;
+  DistinctPaths names_;
 };
 
 class WebDatasetExporter : public Exporter {

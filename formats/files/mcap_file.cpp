@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/files/hash.h"
+#include "base/resource_exhaustion.h"
 #include "base/version.h"
 
 namespace throng::formats {
@@ -127,10 +128,7 @@ class Space {
     if (::close(std::exchange(file_, -1)) != 0) fail();
   }
 
-  [[noreturn]] void fail() const {
-    throw EnvironmentError(
-        fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
-  }
+  [[noreturn]] void fail() const { throw_write_error(path_, errno); }
   const std::filesystem::path& path() const { return path_; }
 
  private:

@@ -11,6 +11,8 @@
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
 #include "base/schemas/schemas.h"
+#include "base/text/portable_name.h"
+#include "base/text/words.h"
 #include "base/version.h"
 #include "crowd/description/menge_files/write.h"
 #include "jobs/pipeline/checks/rehearsal.h"
@@ -37,8 +39,11 @@ json part(const json& object, const char* key) {
   return found == object.end() ? json() : *found;
 }
 
+// Ids are names of folders, on Windows and macOS without regard to case.
 void check_unique(const JsonValue& id, const std::string& text, std::set<std::string>& seen) {
-  if (!text.empty() && !seen.insert(text).second) id.reject("an id that nothing else here has");
+  if (text.empty()) return;
+  if (!seen.insert(lower_case(text)).second) id.reject("an id that nothing else here has");
+  if (is_device_name(text)) id.reject("an id that can be a folder's name on Windows");
 }
 
 // Reads the document's own fields; what belongs to jobs is checked with them.

@@ -6,7 +6,7 @@ import json
 import os
 import re
 import time
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Callable, Iterator, Mapping
 
@@ -74,7 +74,9 @@ def fetch(http: Http, target: str, path: Path, report: Report | None) -> None:
                 else:
                     done = 0
                     with _writing(note):
-                        note.write_text(json.dumps({"etag": response.headers.get("ETag"), "target": target}))
+                        note.write_text(
+                            json.dumps({"etag": response.headers.get("ETag"), "target": target}), encoding="utf-8"
+                        )
                 total = done + int(response.headers.get("Content-Length") or 0)
                 with _writing(part_file):
                     file = open(part_file, "ab" if response.status == 206 else "wb")
@@ -117,7 +119,7 @@ def _writing(path: Path) -> Iterator[None]:
 def _state(part_file: Path, note: Path, target: str) -> tuple[int, str | None]:
     """How much is there, and the tag of what it is a part of."""
     try:
-        known = json.loads(note.read_text())
+        known = json.loads(note.read_text(encoding="utf-8"))
         if known["target"] == target and isinstance(known["etag"], str):
             return part_file.stat().st_size, known["etag"]
     except (OSError, ValueError, KeyError, TypeError):
@@ -128,9 +130,9 @@ def _state(part_file: Path, note: Path, target: str) -> tuple[int, str | None]:
 def check(path: Path, *, complete: bool) -> None:
     """Compares every file of an archive with the manifest in it; removes the archive if one differs."""
     try:
-        storage = open_storage(path, "manifest.json")
-        manifest = json.loads(storage.read("manifest.json", _MAX_MANIFEST_BYTES))
-        verify_files(storage, manifest.get("files") if isinstance(manifest, dict) else None, complete=complete)
+        with closing(open_storage(path, "manifest.json")) as storage:
+            manifest = json.loads(storage.read("manifest.json", _MAX_MANIFEST_BYTES))
+            verify_files(storage, manifest.get("files") if isinstance(manifest, dict) else None, complete=complete)
     except (DatasetError, ValueError) as error:
         path.unlink(missing_ok=True)
         raise DatasetError(f"{path}: the download is damaged and was removed: {error}") from error

@@ -227,7 +227,7 @@ class Client(CatalogClient):
         }
         target = f"/v1/jobs/{part(job_id)}/archive{query_string(query)}"
         out = Path(path)
-        if os.fspath(path).endswith("/"):
+        if os.fspath(path).endswith(("/", os.sep)):
             out.mkdir(parents=True, exist_ok=True)
         if out.is_dir():
             head = self._http.request("HEAD", target, repeatable=True)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._job_base import Part, plain
 from .errors import MissingPackageError, ThrongError
-from .program import find_program
+from .program import LINUX_ONLY, find_program
 
 JobLike = Union[Mapping[str, Any], Part, str, "os.PathLike[str]"]
 
@@ -42,6 +42,8 @@ def _load() -> Any:
         return importlib.import_module("throng_engine")
     except ImportError:
         pass
+    if sys.platform != "linux":
+        raise MissingPackageError(f"Simulation and Env need the engine. {LINUX_ONLY}")
     program = Path(find_program()).resolve()
     folder = program.parent.parent / "lib/throng/python"
     sys.path.append(str(folder))
@@ -59,11 +61,14 @@ def _load() -> Any:
     return module
 
 
-def _job_text(job: JobLike) -> tuple[str, str]:
+def job_text(job: JobLike) -> tuple[str, str]:
     """The job's JSON and its name in messages."""
     if isinstance(job, (str, os.PathLike)):
         path = Path(job)
-        return path.read_text(), str(path)
+        try:
+            return path.read_text(encoding="utf-8-sig"), str(path)
+        except UnicodeDecodeError as error:
+            raise EngineError(f"{path}: found bytes that are no UTF-8 ({error}), expected a job in JSON") from None
     return json.dumps(plain(job)), "job"
 
 
@@ -96,14 +101,14 @@ class Simulation:
         if threads < 1:
             raise EngineError(f"threads: found {threads}, expected 1 or more")
         module = _load()
-        text, source = _job_text(job)
+        text, source = job_text(job)
         self._errors = (module.InputError, module.EnvironmentError)
         self._size = (int(image_size[0]), int(image_size[1]))
         self._remote = remote
         try:
-            self._run = module.SteppedJob(
-                text, source, seed, remote, "" if trace is None else os.fspath(trace), *self._size, threads
-            )
+            # Paths as bytes: those that the locale cannot name have no str that the engine could take.
+            paths = os.fsencode(source), b"" if trace is None else os.fsencode(trace)
+            self._run = module.SteppedJob(text, paths[0], seed, remote, paths[1], *self._size, threads)
         except self._errors as error:
             raise EngineError(str(error)) from None
         #: Meters, one row per agent (n, 2).

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import multiprocessing
 import os
-from pathlib import Path
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
@@ -13,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._job_base import plain
 from ._spaces import BaseEnv, Box, Dict
-from .engine import JobLike, Simulation
+from .engine import EngineError, JobLike, Simulation, job_text
 
 #: An action of 1 along each axis: m/s ahead and to the left, m/s up, rad/s of yaw.
 SPEED_MPS, CLIMB_MPS, YAW_RATE_RAD_S = 5.0, 2.0, 1.5
@@ -67,7 +66,11 @@ class Env(BaseEnv):  # type: ignore[misc]
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode: found {render_mode!r}, expected None or 'rgb_array'")
         if isinstance(job, (str, os.PathLike)):
-            job = json.loads(Path(job).read_text())
+            text, source = job_text(job)
+            try:
+                job = json.loads(text)
+            except ValueError as error:
+                raise EngineError(f"{source}: found no JSON ({error}), expected a job") from None
         self.job: dict[str, Any] = dict(plain(job))
         self.observe = tuple(observe)
         self.reward = reward

@@ -530,8 +530,9 @@ class Drone(Part):
     """One drone and its camera."""
 
     id: str
-    """Unique name: letters, digits, '_' and '-'; also the name of folders. The scenario's drone of this id gives the
-    defaults of start and moves_goal."""
+    """Unique name: letters, digits, '_' and '-'; also the name of folders, so that ids differ in more than their
+    case, and none is a device of Windows (con, nul, com1). The scenario's drone of this id gives the defaults of
+    start and moves_goal."""
     _: KW_ONLY
     airframe: str | Mapping[str, Any] | None = None
     """The quadcopter: a name that throng airframes lists, or an object with the fields that it prints for one.

@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any, Mapping, Sequence, Union
@@ -18,6 +19,8 @@ from .trace import Trace
 PathLike = Union[str, "os.PathLike[str]"]
 JobLike = Union[Mapping[str, Any], Part]
 
+LINUX_ONLY = "It runs on Linux only: elsewhere use its container (docs/container.md), or throng.Client with a service"
+
 
 def find_program(program: PathLike | None = None) -> str:
     """The program's path: the argument, else $THRONG_PROGRAM, else throng in $PATH."""
@@ -26,7 +29,7 @@ def find_program(program: PathLike | None = None) -> str:
     if found is None:
         raise ProgramError(
             f"the program {wanted!r} was not found: build throng (README.md) and put it in $PATH, or name it "
-            "in $THRONG_PROGRAM"
+            f"in $THRONG_PROGRAM{'' if sys.platform == 'linux' else '. ' + LINUX_ONLY}"
         )
     return os.path.abspath(found)
 
@@ -51,7 +54,7 @@ def call(
         command,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE if quiet else None,
-        text=True,
+        encoding="utf-8",
         errors="replace",
         cwd=cwd,
         env=environment,
@@ -146,7 +149,7 @@ def study(
             quiet=quiet,
         )
     summary = Path(out) / "summary.json"
-    return json.loads(summary.read_text())
+    return json.loads(summary.read_text(encoding="utf-8"))
 
 
 def validate_crowd(

@@ -308,7 +308,7 @@ class Scenario:
         out = Path(folder)
         out.mkdir(parents=True, exist_ok=True)
         file = out / f"{self.name}.blueprint.json"
-        file.write_text(json.dumps(self.blueprint(), indent=1))
+        file.write_text(json.dumps(self.blueprint(), indent=1), encoding="utf-8")
         _program.call(["scenario", "make", file, "-o", out], program=program)
         return out / f"{self.name}.json"
 

@@ -23,6 +23,10 @@ LABELS_FILE = "annotations/instances.json"
 # A deflated member that grows to more than this is refused where it grows more than _MAX_RATIO times.
 _LARGE_BYTES = 64 << 20
 _MAX_RATIO = 200
+# Windows changes line ends of files that are not opened as binary; elsewhere a named pipe must not block. Python keeps
+# descriptors from child processes by itself.
+_OPEN_FLAGS = os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0)
+_SEEKING = threading.Lock()
 
 Buffer = Union[bytes, "mmap.mmap"]
 
@@ -57,6 +61,9 @@ class Storage:
         """The file's bytes. Larger files than max_bytes are refused before they are read."""
         raise NotImplementedError
 
+    def close(self) -> None:
+        """Lets go of an archive's file, which Windows cannot remove before; the next reading opens it again."""
+
     def where(self, name: str) -> str:
         """How messages name the file."""
         return f"{self.path}: {self.root}{name}"
@@ -87,8 +94,7 @@ class FolderStorage(Storage):
 
     def _open(self, name: str) -> tuple[int, int]:
         try:
-            # A named pipe must not block.
-            file = os.open(self._full(name), os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)
+            file = os.open(self._full(name), _OPEN_FLAGS)
         except FileNotFoundError:
             raise self.missing(name) from None
         except OSError as error:
@@ -148,7 +154,11 @@ class _ArchiveStorage(Storage):
         self._lock = threading.Lock()
 
     def __del__(self) -> None:
+        self.close()
+
+    def close(self) -> None:
         file = getattr(self, "_file", None)
+        self._file = self._map = None
         if file is not None:
             os.close(file)
 
@@ -161,7 +171,7 @@ class _ArchiveStorage(Storage):
     def _descriptor(self) -> int:
         with self._lock:
             if self._file is None:
-                self._file = os.open(self.path, os.O_RDONLY | os.O_CLOEXEC)
+                self._file = os.open(self.path, _OPEN_FLAGS)
             return self._file
 
     def _add(self, name: str, member: _Member) -> None:
@@ -220,7 +230,7 @@ class TarStorage(_ArchiveStorage):
         size = os.path.getsize(self.path)
         links: list[tuple[str, str]] = []
         try:
-            with tarfile.open(self.path, "r:") as archive:
+            with tarfile.open(self.path, "r:", encoding="utf-8") as archive:
                 for entry in archive:
                     name = check_name(entry.name, self.path) if entry.name.strip("./") else ""
                     if entry.isdir() or not name:
@@ -300,12 +310,20 @@ class ZipStorage(_ArchiveStorage):
         return member.offset + 30 + int(name_bytes) + int(extra_bytes)
 
 
+def _read_part(file: int, size: int, offset: int) -> bytes:
+    if hasattr(os, "pread"):
+        return os.pread(file, size, offset)
+    with _SEEKING:  # Windows has one position for all threads, and reads up to 2 GiB at once
+        os.lseek(file, offset, os.SEEK_SET)
+        return os.read(file, min(size, 1 << 30))
+
+
 def _read_at(file: int, offset: int, size: int, where: str) -> bytes:
     parts: list[bytes] = []
     left = size
     while left > 0:
         try:
-            part = os.pread(file, left, offset)
+            part = _read_part(file, left, offset)
         except (OSError, OverflowError) as error:
             raise DatasetError(f"{where}: cannot be read at byte {offset}: {error}") from error
         if not part:

@@ -41,7 +41,7 @@ def picture(kind, seed, folder):
         "outputs": {"annotations": ["coco"]},
     }
     file = folder / "job.json"
-    file.write_text(json.dumps(job))
+    file.write_text(json.dumps(job), encoding="utf-8")
     throng = os.environ.get("THRONG", ROOT / "build/release/cli/throng")
     subprocess.run([throng, "run", file, "-o", folder / "out"], check=True, stdout=subprocess.DEVNULL)
     return Image.open(next((folder / "out/dataset/images").rglob("*.jpg")))

@@ -50,7 +50,7 @@ def main():
             continue
         with tempfile.TemporaryDirectory() as folder:
             job = pathlib.Path(folder) / "job.json"
-            job.write_text(json.dumps(excerpt(json.loads(file.read_text()))))
+            job.write_text(json.dumps(excerpt(json.loads(file.read_text(encoding="utf-8")))), encoding="utf-8")
             subprocess.run([throng, "run", job, "-o", pathlib.Path(folder) / "out"], check=True)
             images = sorted((pathlib.Path(folder) / "out/dataset/previews").rglob("*.jpg"))
             sheet(images).save(ROOT / f"docs/presets/{name}.jpg", quality=82)

@@ -47,7 +47,9 @@ ROWS = (
 
 def measure(model):
     program = ROOT / "build/release/scripts/studies/crowd_gates"
-    lines = subprocess.run([program, model, "seeds=2"], capture_output=True, text=True, check=True).stdout.splitlines()
+    lines = subprocess.run(
+        [program, model, "seeds=2"], capture_output=True, encoding="utf-8", check=True
+    ).stdout.splitlines()
     found = {}
     for line in lines:
         name, *runs = line.split("|")
@@ -67,7 +69,7 @@ def main(models):
     for title, gate, columns in ROWS:
         table.append(f"| {title} | " + " | ".join(cell(figures[model][gate], columns) for model in models) + " |")
     page = ROOT / "docs/crowd.md"
-    page.write_text(replace_passage(page.read_text(), "crowd figures", table))
+    page.write_text(replace_passage(page.read_text(encoding="utf-8"), "crowd figures", table), encoding="utf-8")
 
 
 if __name__ == "__main__":

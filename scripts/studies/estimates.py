@@ -113,12 +113,12 @@ def child_cpu_s():
 def measure(job, folder):
     """Estimate, and CPU seconds, wall seconds and bytes of the job."""
     file = folder / "job.json"
-    file.write_text(json.dumps(job))
-    checked = subprocess.run([THRONG, "check", "--json", file], capture_output=True, text=True, cwd=ROOT)
+    file.write_text(json.dumps(job), encoding="utf-8")
+    checked = subprocess.run([THRONG, "check", "--json", file], capture_output=True, encoding="utf-8", cwd=ROOT)
     if checked.returncode:
         raise SystemExit(checked.stderr)
     before, start = child_cpu_s(), time.monotonic()
-    done = subprocess.run([THRONG, "run", file, "-o", folder / "out"], capture_output=True, text=True, cwd=ROOT)
+    done = subprocess.run([THRONG, "run", file, "-o", folder / "out"], capture_output=True, encoding="utf-8", cwd=ROOT)
     if done.returncode:
         raise SystemExit(done.stderr)
     wall_s = time.monotonic() - start

@@ -28,7 +28,7 @@ def run_page(folder):
     """Saves the page's files and runs its commands in the folder; CPU and elapsed seconds of each line of them."""
     environment = {**os.environ, "PATH": f"{THRONG.parent}:{os.environ['PATH']}", "THRONG_SCENARIOS": str(folder)}
     spent = {}
-    for before, language, block in read_blocks(PAGE.read_text()):
+    for before, language, block in read_blocks(PAGE.read_text(encoding="utf-8")):
         save_files(folder, before, block)
         for line in block.splitlines() if language == "sh" else []:
             used, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
@@ -41,14 +41,14 @@ def run_page(folder):
 
 def run_other_model(folder):
     """The page's comparison of designs with another pedestrian model, as its summary."""
-    study = json.loads((folder / "doors.json").read_text())
+    study = json.loads((folder / "doors.json").read_text(encoding="utf-8"))
     for case in study["cases"]:
         case["crowd"] = {"model": OTHER_MODEL}
-    (folder / "other.json").write_text(json.dumps(study))
+    (folder / "other.json").write_text(json.dumps(study), encoding="utf-8")
     environment = {**os.environ, "THRONG_SCENARIOS": str(folder)}
     command = [THRONG, "study", "other.json", "-o", "other"]
     subprocess.run(command, cwd=folder, env=environment, check=True, capture_output=True)
-    return json.loads((folder / "other/summary.json").read_text())
+    return json.loads((folder / "other/summary.json").read_text(encoding="utf-8"))
 
 
 def format_interval(mean, interval, sign=""):
@@ -69,8 +69,8 @@ def write_page(folder, spent, summary, other):
     """Puts the figures between the page's comments."""
     cpu_s = {line.split()[1]: seconds[0] for line, seconds in spent.items() if line.startswith("throng ")}
     study_s = next(seconds for line, seconds in spent.items() if line.startswith("throng study doors.json"))
-    times = json.loads((folder / "figures.json").read_text())["escape_time_percentiles"]
-    page = PAGE.read_text()
+    times = json.loads((folder / "figures.json").read_text(encoding="utf-8"))["escape_time_percentiles"]
+    page = PAGE.read_text(encoding="utf-8")
     run = (
         f"This run has T50 {times['t50_s']:.1f} s, T90 {times['t90_s']:.1f} s and T95 {times['t95_s']:.1f} s, all from the "
         f"alarm on. The simulation takes {cpu_s['simulate']:.1f} s of CPU time, metrics {cpu_s['metrics']:.1f} s and the "
@@ -94,19 +94,19 @@ def write_page(folder, spent, summary, other):
     page = replace_passage(
         page, "runs", [f"Here they are {needed[0]} for the door of 1.2 m and {needed[1]} for that of 2.0 m."]
     )
-    PAGE.write_text(replace_passage(page, "model", [model]))
+    PAGE.write_text(replace_passage(page, "model", [model]), encoding="utf-8")
 
 
 def draw(folder, report, image, size, figure=None):
     """An image of the report's top, or of one of its figures by number."""
-    html = report.read_text()
+    html = report.read_text(encoding="utf-8")
     if figure is not None:
         html = html.replace('http-equiv="Content-Security-Policy"', 'name="removed"')  # it refuses scripts
         html += f"""<script>setTimeout(() => {{
           document.body.replaceChildren(document.querySelectorAll("figure")[{figure}]);
         }}, 3000);</script>"""
     page = folder / "drawn.html"
-    page.write_text(html)
+    page.write_text(html, encoding="utf-8")
     command = ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
     command += [f"--user-data-dir={folder / 'profile'}", "--virtual-time-budget=10000", "--hide-scrollbars"]
     command += [f"--window-size={size[0]},{size[1]}", f"--screenshot={image}", f"file://{page}"]
@@ -119,7 +119,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         spent = run_page(folder)
-        summary = json.loads((folder / "doors/summary.json").read_text())
+        summary = json.loads((folder / "doors/summary.json").read_text(encoding="utf-8"))
         write_page(folder, spent, summary, run_other_model(folder))
         (PAGE.parent / "evacuation_plan.png").write_bytes((folder / "office.png").read_bytes())
         draw(folder, folder / "report.html", PAGE.parent / "evacuation_report.png", (905, 900))

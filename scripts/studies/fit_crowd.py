@@ -37,7 +37,7 @@ SKIPPED = ("time gap", "density", "band index", "flow 1", "flow 2")  # given by 
 
 def run(program, *words):
     words = [os.path.join(STUDIES, program), *words]
-    return subprocess.run(words, capture_output=True, text=True, check=True).stdout.splitlines()
+    return subprocess.run(words, capture_output=True, encoding="utf-8", check=True).stdout.splitlines()
 
 
 def as_words(constants):
@@ -152,7 +152,7 @@ class Search:
 
 
 def fit(folder, file, minutes=30):
-    with open(file) as stream:
+    with open(file, encoding="utf-8") as stream:
         constants = json.load(stream)
     names = list(constants)
     start = numpy.array([constants[name] for name in names])
@@ -164,7 +164,7 @@ def fit(folder, file, minutes=30):
         if least < best[0]:
             best = (least, {name: float(f"{value:.4g}") for name, value in zip(names, values)})
         print(f"cost {least:.1f}, best {best[0]:.1f}, step {search.sigma:.2f}", flush=True)
-        with open(file, "w") as stream:
+        with open(file, "w", encoding="utf-8") as stream:
             json.dump(best[1], stream, indent=1)
 
 
@@ -182,7 +182,7 @@ def keeps_limits(limits):
 
 
 def posterior(folder, file, table, draws=100):
-    with open(file) as stream:
+    with open(file, encoding="utf-8") as stream:
         center = json.load(stream)
     names = list(center)
     random = numpy.random.default_rng(2)
@@ -193,13 +193,13 @@ def posterior(folder, file, table, draws=100):
         tried += 1
         if fits_people(recorded_errors(folder, constants, 1)) and keeps_limits(limit_errors(constants, 1)):
             kept.append([f"{constants[name]:.4g}" for name in names])
-            with open(table, "w") as stream:
+            with open(table, "w", encoding="utf-8") as stream:
                 stream.write("\n".join(",".join(row) for row in [names, *kept]) + "\n")
         print(f"{len(kept)} of {tried} kept", flush=True)
 
 
 def show(folder, file, *words):
-    with open(file) as stream:
+    with open(file, encoding="utf-8") as stream:
         constants = json.load(stream)
     seeds = 3
     for word in words:

@@ -39,7 +39,7 @@ class Study:
     """The rows of a study by case and policy."""
 
     def __init__(self, folder, name):
-        summary = json.loads((folder / name / "summary.json").read_text())
+        summary = json.loads((folder / name / "summary.json").read_text(encoding="utf-8"))
         self.rows = {(row["case"], row["policy"]): row for row in summary["rows"]}
         self.cases = list(dict.fromkeys(row["case"] for row in summary["rows"]))
         self.policies = list(dict.fromkeys(row["policy"] for row in summary["rows"]))
@@ -122,7 +122,10 @@ LEFT, RIGHT, TOP, BOTTOM = 60, 560, 20, 330  # of the axes, pixels
 
 def mean_out(folder, case, policy):
     """Mean number of people who are out at each second, over the runs."""
-    runs = [json.loads(file.read_text())["outcome"]["escapes"] for file in (folder / "runs" / case / policy).iterdir()]
+    runs = [
+        json.loads(file.read_text(encoding="utf-8"))["outcome"]["escapes"]
+        for file in (folder / "runs" / case / policy).iterdir()
+    ]
     return [sum(time <= second for run in runs for time in run["escape_s"]) / len(runs) for second in range(END_S + 1)]
 
 
@@ -167,13 +170,13 @@ def main():
         raise SystemExit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     square = Study(folder, "square")
-    page = PAGE.read_text()
+    page = PAGE.read_text(encoding="utf-8")
     page = replace_passage(page, "drones against a siren", baseline_table(Study(folder, "baselines")))
     page = replace_passage(page, "the paper's cases", case_table(square, "paper_"))
     page = replace_passage(page, "cases with navigation", case_table(square, "ours_"))
     page = replace_passage(page, "other studies", other_table(folder))
-    PAGE.write_text(page)
-    FIGURE.write_text(draw(folder / "baselines"))
+    PAGE.write_text(page, encoding="utf-8")
+    FIGURE.write_text(draw(folder / "baselines"), encoding="utf-8")
 
 
 if __name__ == "__main__":

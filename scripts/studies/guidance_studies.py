@@ -18,7 +18,7 @@ import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 THRONG = os.environ.get("THRONG", str(ROOT / "build/release/cli/throng"))
-SHIPPED = json.loads((ROOT / "scenarios/city_square/study.json").read_text())
+SHIPPED = json.loads((ROOT / "scenarios/city_square/study.json").read_text(encoding="utf-8"))
 NEWS = r'<Condition type="proximity" distance="20" agentToAvoid="260" growth_rate="0.75"/>'
 SIREN = '<Condition type="proximity" distance="1000" agentToAvoid="260"/>'
 CASES = ["nearest_exit", "crowded_exit_blocked", "side_exit_blocked", "second_nearest"]
@@ -59,13 +59,13 @@ def add_siren(scenarios):
     """Scenarios X_siren: X_navigated, but everybody knows at t = 0."""
     folder = scenarios / "city_square/huang2016"
     for case in CASES:
-        behavior = (folder / f"{case}_navigated_behavior.xml").read_text()
+        behavior = (folder / f"{case}_navigated_behavior.xml").read_text(encoding="utf-8")
         if behavior.count(NEWS) == 0:
             raise SystemExit(f"{case}_navigated_behavior.xml: no condition {NEWS}")
-        (folder / f"{case}_siren_behavior.xml").write_text(behavior.replace(NEWS, SIREN))
-        scenario = json.loads((folder / f"{case}_navigated.json").read_text())
+        (folder / f"{case}_siren_behavior.xml").write_text(behavior.replace(NEWS, SIREN), encoding="utf-8")
+        scenario = json.loads((folder / f"{case}_navigated.json").read_text(encoding="utf-8"))
         scenario["crowd"]["behavior"] = f"{case}_siren_behavior.xml"
-        (folder / f"{case}_siren.json").write_text(json.dumps(scenario))
+        (folder / f"{case}_siren.json").write_text(json.dumps(scenario), encoding="utf-8")
 
 
 def baseline_cases():
@@ -123,7 +123,7 @@ def main():
         if options.study and name not in options.study:
             continue
         file = options.folder / f"{name}.json"
-        file.write_text(json.dumps(document, indent=1))
+        file.write_text(json.dumps(document, indent=1), encoding="utf-8")
         subprocess.run(
             [
                 THRONG,

@@ -15,7 +15,7 @@ import numpy
 def read_waits(path):
     """Per exit: queue, predicted wait and the wait that followed (NaN where the run ends before), per step."""
     exits = {}
-    with open(path, newline="") as file:
+    with open(path, newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             values = [float(row[name]) for name in ("time_s", "queue", "crossed_out", "predicted_wait")]
             exits.setdefault(row["exit"], []).append(values)

@@ -49,9 +49,9 @@ def count_remaining(scenario, seed, options, folder):
         "capture": {"rate_hz": 1, "from_s": 0, "to_s": options.duration},
     }
     job_file, trace = folder / "job.json", folder / "run.h5"
-    job_file.write_text(json.dumps(job))
+    job_file.write_text(json.dumps(job), encoding="utf-8")
     subprocess.run([THRONG, "simulate", job_file, "-o", trace], check=True, capture_output=True, cwd=ROOT)
-    said = subprocess.run([THRONG, "metrics", trace], check=True, capture_output=True, cwd=ROOT, text=True)
+    said = subprocess.run([THRONG, "metrics", trace], check=True, capture_output=True, cwd=ROOT, encoding="utf-8")
     trace.unlink()
     return json.loads(said.stdout)
 

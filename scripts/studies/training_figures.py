@@ -25,7 +25,7 @@ FEW = 16  # images of the smaller training
 
 
 def run(*command, cwd=ROOT):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=cwd)
+    done = subprocess.run([str(word) for word in command], capture_output=True, encoding="utf-8", cwd=cwd)
     if done.returncode:
         raise SystemExit(f"{command}: {done.stderr}")
     return done.stdout
@@ -33,19 +33,19 @@ def run(*command, cwd=ROOT):
 
 def write_presets():
     """The estimate of each preset, in its row's last cell, on two cores whatever this machine has."""
-    text = PAGE.read_text()
+    text = PAGE.read_text(encoding="utf-8")
     for preset in PRESETS:
         answer = json.loads(run(THRONG, "check", "--json", f"scenarios/presets/{preset}.job.json"))
         minutes = max(1, round(answer["estimate"]["cpu_s"] / 2 / 60))
         text, count = re.subn(rf"(\| `{preset}` \|.*\| )[^|]+( \|\n)", rf"\g<1>{minutes} min\g<2>", text)
         assert count == 1, preset
-    PAGE.write_text(text)
+    PAGE.write_text(text, encoding="utf-8")
 
 
 def make_dataset(scenario, folder):
     demo = ROOT / f"scenarios/{scenario}/demo.job.json"
     job = folder / f"{scenario}.job.json"
-    job.write_text(run("jq", "-f", "examples/training_set.jq", demo))
+    job.write_text(run("jq", "-f", "examples/training_set.jq", demo), encoding="utf-8")
     run(THRONG, "run", job, "-o", folder / scenario)
     return folder / scenario / "dataset"
 
@@ -72,7 +72,7 @@ def format_errors(scores):
 
 def write_scores(folder):
     seen, unseen = make_dataset("bridge", folder), make_dataset("campus", folder)
-    images = len(json.loads((seen / "annotations/instances.json").read_text())["images"])
+    images = len(json.loads((seen / "annotations/instances.json").read_text(encoding="utf-8"))["images"])
     held_out = images // 6
     both = lambda model: (score(model, seen, "val"), score(model, unseen, "all"))  # noqa: E731
     detectors, counters, seconds = [], [], []
@@ -105,9 +105,9 @@ def write_scores(folder):
         " | unseen scenario |",
         "|---|---|---|---|---|",
     ]
-    text = replace_passage(PAGE.read_text(), "facts", [facts])
+    text = replace_passage(PAGE.read_text(encoding="utf-8"), "facts", [facts])
     text = replace_passage(text, "detectors", [*head, *detectors])
-    PAGE.write_text(replace_passage(text, "counters", [*counter_head, *counters]))
+    PAGE.write_text(replace_passage(text, "counters", [*counter_head, *counters]), encoding="utf-8")
 
 
 def main():

@@ -33,7 +33,7 @@ def main():
     parser.add_argument("--page", type=pathlib.Path, default=ROOT / "docs/validation.md")
     parser.add_argument("--throng", default=ROOT / "build/release/cli/throng")
     arguments = parser.parse_args()
-    page = arguments.page.read_text()
+    page = arguments.page.read_text(encoding="utf-8")
     replace_passage(page, "recorded people", [])  # before an hour of simulations
     with tempfile.TemporaryDirectory() as folder:
         report = pathlib.Path(folder, arguments.page.name)
@@ -44,8 +44,8 @@ def main():
             figure = report.with_name(report.stem + ending)
             if figure.exists():
                 arguments.page.with_name(figure.name).write_bytes(figure.read_bytes())
-        part = generated_part(report.read_text())
-    arguments.page.write_text(replace_passage(page, "recorded people", ["", part]))
+        part = generated_part(report.read_text(encoding="utf-8"))
+    arguments.page.write_text(replace_passage(page, "recorded people", ["", part]), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/writable.h"
 
 namespace throng::server {
 
@@ -18,11 +19,13 @@ namespace throng::server {
 class PrivateDatabase {
  public:
   /// Opens or creates the file; `set_up`, called with the database, creates its tables. `what`
-  /// names the content in messages. Throws SQLite::Exception.
+  /// names the content in messages. Throws EnvironmentError for a file that cannot be written, and
+  /// SQLite::Exception.
   template <typename SetUp>
   PrivateDatabase(const std::filesystem::path& path, std::string what, const SetUp& set_up)
       : what_(std::move(what)),
-        database_(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs) {
+        database_(require_writable_database(path), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                  kBusyTimeoutMs) {
     constexpr mode_t kOwnerOnly = 0600;
     ::chmod(path.c_str(), kOwnerOnly);
     set_up(database_);

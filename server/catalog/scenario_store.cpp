@@ -10,6 +10,7 @@
 #include "base/files/files.h"
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
+#include "base/text/portable_name.h"
 #include "server/catalog/api_json.h"
 #include "server/catalog/service_errors.h"
 #include "server/catalog/unix_time.h"
@@ -167,10 +168,11 @@ void ScenarioStore::make_links(const fs::path& shipped) const {
 
 ScenarioStore::Staged ScenarioStore::begin_staging(const std::string& name,
                                                    const std::string& owner) const {
-  if (!is_upload_name(name)) {
-    throw InputError(
-        Problem{"", "?name", '"' + name + '"',
-                fmt::format("1 to {} small letters, digits and underscores", kMaxNameLength)});
+  if (!is_upload_name(name) || is_device_name(name)) {
+    throw InputError(Problem{
+        "", "?name", '"' + name + '"',
+        fmt::format("1 to {} small letters, digits and underscores, and no device of Windows",
+                    kMaxNameLength)});
   }
   return {{name, owner, unix_ms_now(), 0, 0, {}, {}, 0},
           {},

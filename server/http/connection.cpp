@@ -102,18 +102,47 @@ std::variant<RequestHead, HeadError, Connection::Ended> Connection::read_head() 
   }
 }
 
+HeadError Connection::receive_chunks(RequestHead& head, std::size_t max_bytes,
+                                     const std::function<bool(std::size_t)>& may_hold) {
+  ChunkedBody& body = chunks_.emplace(max_bytes);
+  awaits_continue_ = head.expects_continue;
+  body_bytes_ = 0;
+  began_ = Clock::now();
+  while (!body.is_whole()) {
+    if (!is_body_in_time() || (!has_pending() && !receive_body())) {
+      return {408, "the request's body ended early or took too long"};
+    }
+    next_ += body.take(pending());
+    body_bytes_ = body.bytes();
+    if (body.error().status != 0) return body.error();
+    if (!may_hold(body.bytes()))
+      return {503, "other uploads take all the memory there is for them"};
+  }
+  head.content_length = body.bytes();
+  head.expects_continue = false;
+  return {0, ""};
+}
+
 void Connection::begin_request(const RequestHead& head) {
   head_ = library_text(head);
   head_next_ = 0;
   body_left_ = head.content_length;
   body_bytes_ = 0;
   awaits_continue_ = head.expects_continue;
+  if (!head.is_chunked) chunks_.reset();
   began_ = Clock::now();
 }
 
 bool Connection::is_body_in_time() const {
   const std::chrono::duration<double> slow = Clock::now() - began_ - limits_->body_timeout;
   return static_cast<double>(body_bytes_) >= slow.count() * limits_->body_bytes_per_s;
+}
+
+// Bodies are read only once nothing speaks against it.
+bool Connection::receive_body() {
+  constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+  if (std::exchange(awaits_continue_, false) && !write_all(kContinue)) return false;
+  return receive(limits_->silence);
 }
 
 ssize_t Connection::read(char* bytes, std::size_t size) {
@@ -123,13 +152,13 @@ ssize_t Connection::read(char* bytes, std::size_t size) {
     head_next_ += given;
     return static_cast<ssize_t>(given);
   }
-  if (body_left_ == 0 || !is_body_in_time()) return -1;
-  if (!has_pending()) {
-    // The library reads the body only once nothing speaks against it.
-    constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-    if (std::exchange(awaits_continue_, false) && !write_all(kContinue)) return -1;
-    if (!receive(limits_->silence)) return -1;
+  if (body_left_ == 0) return -1;
+  if (chunks_) {
+    const std::size_t given = chunks_->read(bytes, size);
+    body_left_ -= given;
+    return static_cast<ssize_t>(given);
   }
+  if (!is_body_in_time() || (!has_pending() && !receive_body())) return -1;
   const std::size_t given = std::min({size, end_ - next_, body_left_});
   std::memcpy(bytes, buffer_.data() + next_, given);
   next_ += given;
@@ -148,7 +177,8 @@ bool Connection::write_all(std::string_view bytes) {
 }
 
 bool Connection::is_readable() const {
-  return has_pending() || waits_for(socket_, POLLIN, limits_->silence);
+  return has_pending() || (chunks_ && body_left_ > 0) ||
+         waits_for(socket_, POLLIN, limits_->silence);
 }
 
 bool Connection::is_writable() const {

@@ -7,9 +7,12 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 
+#include "server/http/chunked_body.h"
 #include "server/http/connection_limits.h"
 #include "server/http/http.h"
 #include "server/http/request_head.h"
@@ -35,6 +38,11 @@ class Connection : public httplib::Stream {
   struct Ended {};
   /// Reads the next request's head from the socket.
   std::variant<RequestHead, HeadError, Ended> read_head();
+  /// Receives the body of a head that is_chunked, which the library gets with its length: sets
+  /// content_length. `may_hold` is asked for the bytes that are held so far. Returns an error's
+  /// status, 408 also for connections that end, or 0.
+  HeadError receive_chunks(RequestHead& head, std::size_t max_bytes,
+                           const std::function<bool(std::size_t)>& may_hold);
   /// Makes read() return this request, head and body.
   void begin_request(const RequestHead& head);
   /// Whether the library has read the whole request, so that another one may follow.
@@ -60,6 +68,7 @@ class Connection : public httplib::Stream {
   bool receive(std::chrono::milliseconds timeout);
   std::string_view pending() const { return {buffer_.data() + next_, end_ - next_}; }
   bool is_body_in_time() const;
+  bool receive_body();
 
   socket_t socket_;
   const ConnectionLimits* limits_;
@@ -68,8 +77,9 @@ class Connection : public httplib::Stream {
   std::size_t end_ = 0;
   std::string head_;  ///< canonical text for the library
   std::size_t head_next_ = 0;
-  std::size_t body_left_ = 0;   ///< bytes of the body that the library has not read yet
-  std::size_t body_bytes_ = 0;  ///< bytes of the body that it has read
+  std::size_t body_left_ = 0;          ///< bytes of the body that the library has not read yet
+  std::size_t body_bytes_ = 0;         ///< bytes of the body that it has read
+  std::optional<ChunkedBody> chunks_;  ///< the body, if it came in chunks
   bool awaits_continue_ = false;
   bool is_dropped_ = false;
   Clock::time_point began_;  ///< start of the head, then of the body

@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -186,13 +187,14 @@ class HttpServer::BoundedServer : public httplib::Server {
   }
 
   /// False when the connection has to end.
-  bool serve(Connection& connection, const RequestHead& head, bool is_last) {
-    std::shared_ptr<void> admission;
-    if (head.content_length > 0) {
+  bool serve(Connection& connection, RequestHead head, bool is_last) {
+    BodyAdmission admission;
+    if (head.content_length > 0 || head.is_chunked) {
       httplib::Request request = to_library_request(head);
       connection.get_remote_ip_and_port(request.remote_addr, request.remote_port);
       try {
         admission = admit_body(request, head.content_length);
+        if (head.is_chunked) receive_chunks(connection, head, admission.max_bytes);
       } catch (const HttpError& error) {
         refuse(connection, request, error);
         return false;
@@ -216,8 +218,8 @@ class HttpServer::BoundedServer : public httplib::Server {
   }
 
   /// Throws HttpError for a body that is not to be read. The result is held during the request.
-  std::shared_ptr<void> admit_body(const httplib::Request& request, std::size_t bytes) {
-    BodyAdmission admission;
+  BodyAdmission admit_body(const httplib::Request& request, std::size_t bytes) {
+    BodyAdmission admission{std::numeric_limits<std::size_t>::max()};
     if (options_.admit_body) {
       admission = options_.admit_body(request);
       if (bytes > admission.max_bytes) {
@@ -226,7 +228,18 @@ class HttpServer::BoundedServer : public httplib::Server {
     }
     if (!reserve(bytes))
       throw HttpError{503, "other uploads take all the memory there is for them"};
-    return admission.held;
+    return admission;
+  }
+
+  /// Receives a body whose length nobody knows beforehand; throws HttpError.
+  void receive_chunks(Connection& connection, RequestHead& head, std::size_t max_bytes) {
+    const auto may_hold = [this](std::size_t bytes) {
+      constexpr std::size_t kStep = 2 * kSmallBody;  // reserve() counts what is above one
+      const auto held = static_cast<std::size_t>(reserved_);
+      return bytes <= std::max(kSmallBody, held) || reserve(std::max(kStep, bytes - held));
+    };
+    const HeadError error = connection.receive_chunks(head, max_bytes, may_hold);
+    if (error.status != 0) throw HttpError{error.status, error.detail};
   }
 
   /// Notes the memory that this thread's request will take; false when there is too little left.

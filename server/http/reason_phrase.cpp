@@ -18,8 +18,6 @@ const char* reason_phrase(int status) {
       return "Conflict";
     case 408:
       return "Request Timeout";
-    case 411:
-      return "Length Required";
     case 413:
       return "Content Too Large";
     case 414:

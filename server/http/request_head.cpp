@@ -234,7 +234,7 @@ void read_framing(const std::vector<HeaderField>& fields, RequestHead& head) {
     if (head.is_http_1_0) refuse(400, "HTTP/1.0 has no Transfer-Encoding");
     if (!head.takes_body()) refuse(400, fmt::format("a {} has no body", head.method));
     if (!are_equal(codings[0], "chunked")) refuse(501, "this transfer coding is not known here");
-    refuse(411, "a body needs a Content-Length");
+    head.is_chunked = true;
   }
   if (!lengths.empty()) head.content_length = length_in(lengths[0]);
   if (head.content_length > 0 && !head.takes_body()) {
@@ -251,7 +251,7 @@ void read_expectation(const std::vector<HeaderField>& fields, RequestHead& head)
   const auto expectations = header_values(fields, "Expect");
   if (expectations.empty() || head.is_http_1_0) return;
   if (!are_equal(expectations[0], "100-continue")) refuse(417, "only 100-continue can be expected");
-  head.expects_continue = head.content_length > 0;
+  head.expects_continue = head.content_length > 0 || head.is_chunked;
 }
 
 void read_persistence(const std::vector<HeaderField>& fields, RequestHead& head) {
@@ -331,6 +331,15 @@ bool RequestHead::takes_body() const {
 std::variant<RequestHead, HeadError> parse_request_head(std::string_view bytes) {
   try {
     return read_head(bytes);
+  } catch (const Fault& fault) {
+    return fault.error;
+  }
+}
+
+HeadError check_header_field(std::string_view line) {
+  try {
+    static_cast<void>(field_in(line));
+    return {0, ""};
   } catch (const Fault& fault) {
     return fault.error;
   }

@@ -30,6 +30,7 @@ struct RequestHead {
   /// End-to-end header fields. The members below hold framing and connection fields.
   std::vector<HeaderField> fields;
   std::size_t content_length = 0;
+  bool is_chunked = false;        ///< the body comes in chunks, without a content_length
   bool keeps_connection = true;   ///< the client may send another request afterwards
   bool expects_continue = false;  ///< the client waits for "100 Continue" before it sends the body
 
@@ -48,11 +49,13 @@ struct HeadError {
 
 /// Parses a head, including its final empty line. Throws nothing.
 ///
-/// Statuses: 400 for malformed or ambiguous heads and for a body with a method that takes none; 411
-/// for chunked bodies; 414 for a long target and 431 for long or many fields; 415 for a content
-/// coding; 417 for an unknown expectation; 501 for unknown methods and transfer codings; 505 for
-/// other versions.
+/// Statuses: 400 for malformed or ambiguous heads and for a body with a method that takes none; 414
+/// for a long target and 431 for long or many fields; 415 for a content coding; 417 for an unknown
+/// expectation; 501 for unknown methods and transfer codings; 505 for other versions.
 std::variant<RequestHead, HeadError> parse_request_head(std::string_view bytes);
+
+/// Checks a header field, without its line's end; status 0 if it has no error.
+HeadError check_header_field(std::string_view line);
 
 /// Checks the first bytes of an incomplete head; status 0 if they have no error.
 HeadError check_head_start(std::string_view bytes);

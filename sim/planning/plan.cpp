@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/portable_name.h"
 #include "base/text/suggest.h"
+#include "base/text/words.h"
 #include "sim/planning/clearance.h"
 #include "sim/planning/guidance_check.h"
 #include "sim/planning/separation.h"
@@ -194,6 +196,27 @@ class MissionCheck {
   const world::DroneStart* known_ = nullptr;
 };
 
+// Ids are names of the dataset's folders, which is brought to other systems.
+void check_id(const std::vector<DroneMission>& missions, std::size_t i,
+              std::vector<Problem>& problems) {
+  const std::string& id = missions[i].id;
+  const auto refuse = [&](std::string found, const char* expected) {
+    problems.push_back({"", fmt::format("/drones/{}/id", i), std::move(found), expected});
+  };
+  if (is_device_name(id)) {
+    return refuse(fmt::format("\"{}\", a device of Windows", id),
+                  "an id that can be a folder's name on Windows");
+  }
+  for (std::size_t j = 0; j < i; ++j) {
+    const std::string& other = missions[j].id;
+    if (other == id)
+      return refuse(fmt::format("\"{}\" again", id), "an id that no other drone has");
+    if (lower_case(other) != lower_case(id)) continue;
+    return refuse(fmt::format("\"{}\" and \"{}\", one folder on Windows and macOS", other, id),
+                  "ids that differ in more than their case");
+  }
+}
+
 }  // namespace
 
 std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
@@ -206,13 +229,8 @@ std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
     drones.push_back(MissionCheck(scenario, missions[i], i, problems).plan(airframes));
     drones[i].scenario = &scenario;
     drones[i].index = static_cast<int>(i);
+    check_id(missions, i, problems);
     for (std::size_t j = 0; j < i; ++j) {
-      if (missions[j].id == missions[i].id) {
-        problems.push_back({"", fmt::format("/drones/{}/id", i),
-                            fmt::format("\"{}\" again", missions[i].id),
-                            "an id that no other drone has"});
-        break;
-      }
       if (drones[i].moves_goal && drones[j].moves_goal == drones[i].moves_goal) {
         problems.push_back({"", fmt::format("/drones/{}/moves_goal", i),
                             fmt::format("the goal that drone \"{}\" moves", missions[j].id),

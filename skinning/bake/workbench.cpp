@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/resource_exhaustion.h"
 
 namespace throng::skinning {
 
@@ -25,7 +26,7 @@ Workbench::Workbench(fs::path output, const std::string& content_hash)
   fs::create_directories(folder_, error);
   // The lock goes with the process, however it ends.
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw EnvironmentError(fmt::format("cannot write {}", folder_.string()));
+  if (lock_ < 0) throw_write_error(folder_, error ? error.value() : errno);
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
     ::close(lock_);
     throw EnvironmentError(fmt::format("another build is writing {}", folder_.string()));

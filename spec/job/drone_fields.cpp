@@ -63,9 +63,11 @@ void set_aim(DroneSpec& drone, const json& value, const FieldLocation& place) {
 FieldTable<DroneSpec> make_drone_fields() {
   FieldTable<DroneSpec> table;
   table
-      .add("id", "Id", "", identifiers(), at(&DroneSpec::mission, &sim::DroneMission::id),
-           "Unique name: letters, digits, '_' and '-'; also the name of folders. The scenario's "
-           "drone of this id gives the defaults of start and moves_goal.")
+      .add(
+          "id", "Id", "", identifiers(), at(&DroneSpec::mission, &sim::DroneMission::id),
+          "Unique name: letters, digits, '_' and '-'; also the name of folders, so that ids differ "
+          "in more than their case, and none is a device of Windows (con, nul, com1). The "
+          "scenario's drone of this id gives the defaults of start and moves_goal.")
       .required();
   table.add("airframe", "Airframe", "",
             raw({{"type", {"string", "object"}}, {"pattern", identifiers().rules["pattern"]}},

@@ -43,6 +43,44 @@ class Messages(unittest.TestCase):
         file.write_text(json.dumps({"scenario": "city_square/nearest_exit", **fields}))
         return file
 
+    def unwritable(self, expected, *arguments):
+        """Also root has no other rights than those of the folder's mode here."""
+        drop = ["setpriv", "--bounding-set", "-dac_override,-dac_read_search"] if os.geteuid() == 0 else []
+        done = subprocess.run(
+            [*drop, os.path.abspath(THRONG), *map(str, arguments)],
+            capture_output=True,
+            text=True,
+            timeout=300,
+            cwd=self.folder,
+        )
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        self.assertIn(f"throng: cannot write {expected}", done.stderr)
+
+    def test_folders_that_cannot_be_written_say_why(self):
+        denied = f": Permission denied (user {os.geteuid()})"
+        for name in ("locked", "data/jobs"):
+            (self.folder / name).mkdir(parents=True)
+        for name in ("keys", "jobs", "webhooks"):
+            (self.folder / name).mkdir()
+            file = self.folder / name / f"{name}.sqlite"
+            file.touch()
+            file.chmod(0o444)
+        (self.folder / "file").touch()
+        (self.folder / "locked").chmod(0o555)
+        (self.folder / "data/jobs").chmod(0o555)
+        serve = ("serve", "--port", "0", "--data")
+        self.unwritable("to locked" + denied, *serve, "locked")
+        self.unwritable("to locked" + denied, *serve, "locked/data")
+        self.unwritable("to file: found a file, expected a folder", *serve, "file/data")
+        self.unwritable("to data/jobs" + denied, *serve, "data")
+        for name in ("keys", "jobs", "webhooks"):
+            self.unwritable(f"to {name}/{name}.sqlite" + denied, *serve, name)
+        job = self.job(crowd={"agents": 5}, drones=[])
+        self.unwritable("to locked" + denied, "run", job, "-o", "locked")
+        self.unwritable("to locked" + denied, "run", job, "-o", "locked/out")
+        self.unwritable("to file: found a file, expected a folder", "run", job, "-o", "file/out")
+        self.unwritable("locked/trace.h5" + denied, "simulate", job, "-o", "locked/trace.h5")
+
     def test_an_unknown_command_is_named_with_the_nearest_one(self):
         self.refused('unknown command "runn"; did you mean "run"?', "runn", "x")
         self.refused('unknown command "exprot"; did you mean "export"?', "exprot")

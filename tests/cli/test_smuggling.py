@@ -128,7 +128,7 @@ class Attacks:
         """The beginning of a request that the next user of the same connection would complete with their key."""
         return f"DELETE /v1/jobs/{self.job} HTTP/1.1\r\nHost: localhost\r\nX: ".encode()
 
-    def assert_refused(self, head, body=b"", expected=(400, 411, 415, 417, 431, 501, 505, 404, 405, 408)):
+    def assert_refused(self, head, body=b"", expected=(400, 415, 417, 431, 501, 505, 404, 405, 408)):
         with self.subTest(head=head):
             answers = exchange(self.front, head + body, patience_s=NONE_S)
             self.assertIn(len(statuses(answers)), (0, 1), answers[:500])
@@ -161,7 +161,7 @@ class Attacks:
             b"Content-Length: %d\r\nX: \0\r\n",
         ):
             head = start + fields % len(inner) + b"\r\n"
-            self.assert_refused(head, b"0\r\n\r\n" + inner, (400, 401, 411, 415, 501))
+            self.assert_refused(head, b"0\r\n\r\n" + inner, (400, 401, 415, 501))
 
     def test_chunked_oddities(self):
         inner = self.victims_request()
@@ -384,7 +384,7 @@ class Attacks:
         self.assertEqual(statuses(answers), [401])
         for length in (b"%30", b"0%0d%0aX: y"):
             head = b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Length: " + length + b"\r\n\r\n"
-            self.assert_refused(head, self.victims_request(), (400, 401, 411))
+            self.assert_refused(head, self.victims_request(), (400, 401))
 
     def test_other_spellings_of_the_path(self):
         """Scopes are those of the route that answers, however its path is written."""
@@ -497,21 +497,22 @@ class BarePort(Attacks, unittest.TestCase):
             self.skipTest("in the long test")
         super().setUp()
 
-    def test_chunked_uploads_are_told_to_say_their_length(self):
+    def test_chunked_uploads_arrive(self):
         code = self.curl(
             "-H",
             "Content-Type: application/json",
             "-H",
             "Transfer-Encoding: chunked",
-            "-d",
-            "{}",
+            "--data-binary",
+            "@-",
             "-o",
             "/dev/null",
             "-w",
             "%{http_code}",
-            "/v1/jobs",
+            "/v1/jobs?dry_run",
+            data=json.dumps(hostile.JOB).encode(),
         )
-        self.assertEqual(code, b"411")
+        self.assertEqual(code, b"200")
 
     def test_slow_heads_are_cut_off(self):
         """While it is sent, however slowly, the connection is closed, and with it what came so far."""

@@ -391,6 +391,21 @@ TEST_F(MoreExports, WebDatasetKeepsSamplesTogether) {
   EXPECT_EQ(annotations, coco().at("annotations").size());
 }
 
+TEST_F(MoreExports, WebDatasetRefusesSamplesThatAreOneFileElsewhere) {
+  const fs::path labels = folder_ / "dataset" / "annotations" / "instances.json";
+  std::string text = read_file(labels);
+  for (std::size_t at = 0; (at = text.find("\"d2\"", at)) != std::string::npos;) {
+    text.replace(at, 4, "\"D1\"");
+  }
+  write_file_atomically(labels, text);
+  try {
+    exported("webdataset");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("one file on Windows and macOS"));
+  }
+}
+
 TEST_F(MoreExports, WebDatasetBeginsAShardWhereTheLastIsFull) {
   ExportOptions options;
   options.webdataset.shard_mb = 0.01;

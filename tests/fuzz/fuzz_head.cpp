@@ -1,10 +1,12 @@
-// Any request head: what is taken has one meaning, and the library is given exactly that.
+// Any request head: what is taken has one meaning, and the library is given exactly that. And any
+// chunked body: it is the same in whatever pieces it arrives.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
+#include "server/http/chunked_body.h"
 #include "server/http/request_head.h"
 
 namespace {
@@ -40,10 +42,28 @@ void check_taken(const RequestHead& head) {
   require(same.content_length == head.content_length && same.fields.size() == head.fields.size());
 }
 
+void check_chunks(const std::string& bytes) {
+  constexpr std::size_t kMaxBytes = 300;
+  throng::server::ChunkedBody whole(kMaxBytes);
+  throng::server::ChunkedBody pieces(kMaxBytes);
+  const std::size_t taken = whole.take(bytes);
+  std::size_t taken_in_pieces = 0;
+  while (taken_in_pieces < bytes.size() && !pieces.is_whole() && pieces.error().status == 0) {
+    taken_in_pieces += pieces.take(std::string_view(bytes).substr(taken_in_pieces, 3));
+  }
+  require(taken == taken_in_pieces && taken <= bytes.size() && whole.bytes() <= kMaxBytes);
+  require(whole.is_whole() == pieces.is_whole() && whole.error().status == pieces.error().status);
+  std::string one(kMaxBytes, '\0');
+  std::string other(kMaxBytes, '\0');
+  require(whole.read(one.data(), kMaxBytes) == whole.bytes());
+  require(pieces.read(other.data(), kMaxBytes) == pieces.bytes() && one == other);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
+  check_chunks(bytes);
   const auto read = throng::server::parse_request_head(bytes);
   const bool is_taken = std::holds_alternative<RequestHead>(read);
   for (std::size_t i = 0; i <= size; i += 1 + size / 50) {

@@ -7,6 +7,7 @@ import importlib
 import io
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -108,7 +109,7 @@ class Examples(unittest.TestCase):
         heads = self.root / "nwpu"
         (heads / "images").mkdir(parents=True)
         (heads / "jsons").mkdir()
-        (heads / "images/0001.jpg").touch()
+        shutil.copy(next((self.dataset / "images").rglob("*.jpg")), heads / "images/0001.jpg")
         (heads / "jsons/0001.json").write_text('{"points": []}')
         for arguments, message in (
             (("train_detector", self.dataset, "-o", model, "--split", "x"), "found 'x', expected all, train, val"),

@@ -1,6 +1,7 @@
 """Readers of real sets: small files made here in each layout, and throng's own exports of known people."""
 import json
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -25,13 +26,26 @@ class Folder(unittest.TestCase):
 
             Image.new("RGB", (40, 30), (9, 99, 199)).save(path)
         else:
-            path.write_text(text)
+            path.write_text(text, encoding="latin-1")
 
     def assert_wrong(self, kind, *parts):
         with self.assertRaises(DatasetError) as caught:
             open_real_set(kind, self.root)
         for part in parts:
             self.assertIn(part, str(caught.exception))
+
+    def assert_skipped(self, kind, count, *parts, folder="."):
+        """The set with `count` images; what was left out is listed, and logged in one line."""
+        with self.assertLogs("throng", "WARNING") as logged:
+            images = open_real_set(kind, self.root / folder)
+        self.assertEqual(len(images), count)
+        listed = "\n".join(map(str, images.skipped))
+        for part in parts:
+            self.assertIn(part, listed)
+        self.assertEqual(len(images.skipped), len(parts), listed)
+        self.assertEqual(len(logged.output), 1)
+        self.assertRegex(logged.output[0], rf": skipped {len(parts)} files?, folders? or lines?, the first {self.root}")
+        return images
 
 
 class VisDrone(Folder):
@@ -56,7 +70,21 @@ class VisDrone(Folder):
         images = open_real_set("visdrone", self.root)
         self.assertEqual([(image.sequence, image.count) for image in images], [("s", 0), ("s", 1)])
         self.write("annotations/s.txt", "3,0,1,2,3,4,1,1,0,0\n")
-        self.assert_wrong("visdrone", "annotations/s.txt:1: found the frame 3, expected one of 2")
+        self.assert_skipped("visdrone", 2, "annotations/s.txt:1: found the frame 3, expected one of 2")
+        self.write(
+            "annotations/s.txt", "1,0,1,2,3,4,1,1,0,0\n1,0,1,2\n1,0\n\xe9,0,1\n2,0,1,2,3,4,1,1,0,0\n1,0,9,9,3,4,1,1,0,0"
+        )
+        parts = (
+            "s.txt:2: found '1,0,1,2', expected 10 or more",
+            "s.txt:3:",
+            "s.txt:4: found '\ufffd,0,1', expected a frame",
+        )
+        (image,) = self.assert_skipped("visdrone", 1, *parts)
+        self.assertEqual((image.path.name, image.count), ("0000002.jpg", 1))
+        self.write("sequences/t/0000001.jpg")
+        self.write("annotations/u.txt")
+        parts = (*parts, "sequences/t: found no labels of this sequence", "annotations/u.txt: found no folder")
+        self.assert_skipped("visdrone", 1, *parts)
 
     def test_errors(self):
         self.assert_wrong("visdrone", "found an empty folder; expected annotations/ with images/ or sequences/")
@@ -69,9 +97,18 @@ class VisDrone(Folder):
         self.assert_wrong("visdrone", "a.txt:1: found the score 0.5, expected 1")
         self.write("annotations/a.txt")
         self.write("images/c.jpg")
-        self.assert_wrong("visdrone", "c.jpg: found no annotations/c.txt")
         self.write("annotations/d.txt")
-        self.assert_wrong("visdrone", "d.txt: found no image")
+        parts = ["c.jpg: found no labels c, expected a file", "d.txt: found no image"]
+        self.assert_skipped("visdrone", 1, *parts)
+        self.write("annotations/c.txt", "1,2,3,4,1,1,0,0\n1,2,x,4\n")
+        parts[0] = "c.txt:2: found '1,2,x,4'"
+        images = self.assert_skipped("visdrone", 1, *parts)
+        self.assertEqual((images.skipped[0].path.name, images.skipped[0].line), ("c.txt", 2))
+        self.assertEqual(images[:1].skipped, images.skipped)
+        (self.root / "annotations/a.txt").unlink()
+        self.assert_wrong(
+            "visdrone", "expected a set in the layout of visdrone\n  ", *parts, "a.jpg: found no labels a"
+        )
         with self.assertRaisesRegex(ValueError, "did you mean 'visdrone'"):
             open_real_set("visdron", self.root)
         with self.assertRaisesRegex(DatasetError, "found no such folder"):
@@ -79,6 +116,49 @@ class VisDrone(Folder):
         (self.root / "broken.jpg").write_text("no image")
         with self.assertRaisesRegex(DatasetError, "broken.jpg: found no whole image"):
             throng.real_sets.RealImage(self.root / "broken.jpg", "", None, np.empty((0, 4)), None).image()
+
+    def test_damaged_images(self):
+        for name in ("whole", "padded", "cut", "zeros", "text", "empty", "system"):
+            self.write(f"images/{name}.jpg")
+            self.write(f"annotations/{name}.txt", "1,2,3,4,1,1,0,0\n")
+        jpeg = (self.root / "images/whole.jpg").read_bytes()
+        for name, content in {
+            "padded.jpg": jpeg + bytes(5000),
+            "cut.jpg": jpeg[:-200],
+            "zeros.jpg": jpeg[:-200] + bytes(200),
+            "text.jpg": b"none",
+            "empty.jpg": b"",
+        }.items():
+            (self.root / "images" / name).write_bytes(content)
+        parts = [f"{name}.jpg: found no whole image" for name in ("cut", "zeros", "text", "empty")]
+        images = self.assert_skipped("visdrone", 3, *parts)
+        self.assertEqual([image.image().shape for image in images], [(30, 40, 3)] * 3)
+
+
+class SystemFiles(Folder):
+    def test_they_are_left_out_everywhere(self):
+        row = "1,1,2,3,4,5,1,1,1,0\n"
+        for kind, image, label, text in (
+            ("visdrone", "images/1.jpg", "annotations/1.txt", "1,1,2,3,1,1,0,0\n"),
+            ("visdrone", "sequences/s/1.jpg", "annotations/s.txt", row),
+            ("mot", "s/img1/1.jpg", "s/gt/gt.txt", row),
+            ("uavdt", "UAV-benchmark-M/s/1.jpg", "GT/s_gt_whole.txt", row),
+            ("nwpu", "images/1.jpg", "jsons/1.json", '{"points": []}'),
+            ("dronecrowd", "images/img001001.jpg", "annotations/1.txt", row),
+            ("dronecrowd", "images/1/1.jpg", "annotations/1.txt", row),
+        ):
+            with self.subTest(kind=kind, image=image):
+                shutil.rmtree(self.root)
+                self.write(image)
+                self.write(label, text)
+                self.assertEqual(open_real_set(kind, self.root).skipped, ())
+                parts = []
+                for path in (pathlib.Path(image), pathlib.Path(label)):
+                    for name in ("._" + path.name, ".DS_Store", "Thumbs.db"):
+                        (self.root / path.with_name(name)).write_bytes(b"\0\5\x16\7\0\2\0\0Mac OS X\xb0")
+                        if not path.name.startswith("gt"):  # MOT's folders of labels are not listed
+                            parts.append(f"{path.with_name(name)}: found a file of macOS or Windows")
+                self.assert_skipped(kind, 1, *parts)
 
 
 class Mot(Folder):
@@ -99,15 +179,22 @@ class Mot(Folder):
         self.assert_wrong("mot", "expected img1/ and gt/gt.txt")
         self.write("s/img1/000001.jpg")
         for text, message in {
-            "2,1,1,1,1,1,1,1,1": "gt.txt:1: found the frame 2, expected one of 1 in img1/",
-            "1.5,1,1,1,1,1,1,1,1": "gt.txt:1: found the frame 1.5, expected a whole number",
             "1,1,1,1,1,1,3,1,1": "gt.txt:1: found 3 in the column 7, expected 0 or 1",
             "1,1,1,nan,1,1,1": "gt.txt:1: found '1,1,1,nan",
         }.items():
             self.write("s/gt/gt.txt", text)
             self.assert_wrong("mot", message)
+        for text, message in {
+            "2,1,1,1,1,1,1,1,1": "gt.txt:1: found the frame 2, expected one of 1 images",
+            "1.5,1,1,1,1,1,1,1,1": "gt.txt:1: found '1.5,1,1,1,1,1,1,1,1', expected a frame at its beginning, a whole number",
+        }.items():
+            self.write("s/gt/gt.txt", text)
+            self.assert_skipped("mot", 1, message)
         self.write("s/img1/thumb.jpg")
-        self.assert_wrong("mot", "thumb.jpg: found no number at the end of the name")
+        self.write("s/gt/gt.txt")
+        self.write("t/img1/000001.jpg")
+        no_number = "thumb.jpg: found no number at the end of the name"
+        self.assert_skipped("mot", 1, no_number, "t: found no gt/gt.txt, expected the labels of img1/")
 
 
 class Uavdt(Folder):
@@ -121,7 +208,9 @@ class Uavdt(Folder):
         self.assert_wrong("uavdt", "M01_gt_whole.txt:1: found the category 9, expected 1 to 4")
         self.write("GT/M02_gt_whole.txt", "")
         self.write("GT/M01_gt_whole.txt", "")
-        self.assert_wrong("uavdt", "M02_gt_whole.txt: found no folder")
+        self.assert_skipped("uavdt", 1, "M02_gt_whole.txt: found no folder")
+        self.write("GT/M01_gt_ignore.txt", "1,0,x")
+        self.assert_wrong("uavdt", "M02_gt_whole.txt: found no folder", "M01_gt_ignore.txt:1: found '1,0,x'")
 
 
 class Nwpu(Folder):
@@ -147,6 +236,12 @@ class Nwpu(Folder):
             self.assert_wrong("nwpu", "0001.json", message)
         self.write("val.txt", "0007 1 0\n")
         self.assert_wrong("nwpu", "val.txt:1: found '0007 1 0'")
+        self.write("jsons/0001.json", '{"points": [[1, 2]]}')
+        self.write("images/0002.jpg")
+        self.write("val.txt", "0007 1 0\n0001 1 0\n")
+        self.assert_skipped("nwpu", 1, "val.txt:1: found '0007 1 0'")
+        (self.root / "val.txt").unlink()
+        self.assert_skipped("nwpu", 1, "0002.jpg: found no labels 0002")
 
 
 class Heads(Folder):
@@ -157,10 +252,12 @@ class Heads(Folder):
         first, second = open_real_set("dronecrowd", self.root)
         self.assertEqual((first.count, second.points.tolist()), (0, [[12, 23]]))
         self.write("annotations/00001.txt", "3,5,10,20,4,6,0,0,-1,-1\n")
-        self.assert_wrong("dronecrowd", "00001.txt:1: found the frame 3, expected one of 2 images")
+        self.assert_skipped("dronecrowd", 2, "00001.txt:1: found the frame 3, expected one of 2 images")
         self.write("annotations/00002.txt", "")
         self.write("annotations/00001.txt", "")
-        self.assert_wrong("dronecrowd", "00002.txt: found no images")
+        self.write("images/img003001.jpg")
+        unlabeled = "img003001.jpg: found no labels of its sequence"
+        self.assert_skipped("dronecrowd", 2, "00002.txt: found no images", unlabeled)
 
     @unittest.skipIf(common.has("scipy"), "scipy is installed")
     def test_scipy_is_named(self):
@@ -186,8 +283,20 @@ class Heads(Folder):
         scipy.io.savemat(self.root / "other/ground_truth/GT_img002003.mat", {"image_info": cell})
         (image,) = open_real_set("dronecrowd", self.root / "other")
         self.assertEqual((image.sequence, image.count), ("002", 2))
+        shutil.rmtree(self.root / "other")
         (self.root / "train_data/ground-truth/GT_IMG_1.mat").write_text("none")
         self.assert_wrong("shanghaitech", "GT_IMG_1.mat: found no MATLAB file")
+        for name in ("train_data/images/IMG_2.jpg", "train_data/images/IMG_3.jpg"):
+            self.write(name)
+        scipy.io.savemat(self.root / "train_data/ground-truth/GT_IMG_2.mat", {"image_info": cell})
+        (self.root / "train_data/ground-truth/._GT_IMG_2.mat").write_bytes(bytes(99))
+        parts = (
+            "GT_IMG_1.mat: found no MATLAB file",
+            "IMG_3.jpg: found no labels GT_IMG_3",
+            "._GT_IMG_2.mat: found a file of",
+        )
+        self.assert_skipped("shanghaitech", 1, *parts)
+        (self.root / "train_data/ground-truth/GT_IMG_2.mat").unlink()
         scipy.io.savemat(self.root / "train_data/ground-truth/GT_IMG_1.mat", {"density": heads})
         self.assert_wrong("shanghaitech", "GT_IMG_1.mat: found density, expected image_info")
 

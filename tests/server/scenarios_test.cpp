@@ -136,7 +136,8 @@ TEST_F(Uploads, NamesAreTakenOnce) {
   ASSERT_EQ(upload(yard_bundle())->status, 201);
   expect_problem(upload(yard_bundle()), 409);
   expect_problem(upload(yard_bundle(), "name=b0123456789abcdef"), 409);
-  for (const char* name : {"", "name=", "name=A", "name=../x", "name=a/b", "name=a.b"}) {
+  for (const char* name :
+       {"", "name=", "name=A", "name=../x", "name=a/b", "name=a.b", "name=con"}) {
     expect_problem(upload(yard_bundle(), name), 400);
   }
   expect_problem(client().Post("/v1/scenarios?name=x", yard_bundle(), "text/plain"), 415);

@@ -67,9 +67,29 @@ TEST_F(Smuggling, UnclearLengthsEndTheConnection) {
         "Transfer-Encoding\t: chunked\r\n"}) {
     expect_one_answer(fmt::format("{}{}\r\n", head, length), 400);
   }
-  expect_one_answer(head + "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 411);
-  expect_one_answer(head + "Transfer-Encoding: chunked\r\n\r\n0;x=\"\r\n\r\n\"\r\n\r\n", 411);
   expect_one_answer(head + "Transfer-Encoding: xchunked\r\n\r\n0\r\n\r\n", 501);
+}
+
+TEST_F(Smuggling, MalformedChunksEndTheConnection) {
+  const std::string head = fmt::format(
+      "POST /v1/jobs?dry_run HTTP/1.1\r\n{}Content-Type: application/json\r\n"
+      "Transfer-Encoding: chunked\r\n",
+      kHost);
+  for (const char* body :
+       {"0x0\r\n\r\n", "0 \r\n\r\n", "0\n\n", "-1\r\n", "ffffffffffffffff1\r\n",
+        "3\r\nabcd\r\n0\r\n\r\n", "2\r\n{}0\r\n\r\n", "\r\n", "0\r\n\n", "0;x=\"\r\n\"\r\n\r\n"}) {
+    expect_one_answer(head + "\r\n" + body, 400);
+  }
+  expect_one_answer(head + "Content-Length: 2\r\n\r\n0\r\n\r\n", 400);
+  // Trailers change nothing: the body ends behind them, whatever they say.
+  const std::string next =
+      fmt::format("GET /healthz HTTP/1.1\r\n{}Connection: close\r\n\r\n", kHost);
+  for (const char* trailers : {"", "Content-Length: 70\r\n", "Transfer-Encoding: chunked\r\n"}) {
+    const std::string answers = raw(head + "\r\n2\r\n[]\r\n0\r\n" + trailers + "\r\n" + next);
+    EXPECT_THAT(answers, StartsWith("HTTP/1.1 400 ")) << "an empty list is no job";
+    EXPECT_THAT(answers, HasSubstr("HTTP/1.1 200 OK"));
+    EXPECT_EQ(count_occurrences(answers, "HTTP/1."), 2U) << answers;
+  }
 }
 
 TEST_F(Smuggling, RefusedBodiesAreNotReadAsRequests) {

@@ -161,6 +161,15 @@ INSTANTIATE_TEST_SUITE_P(
                   m[1].moves_goal = world::GoalRef{99, 1};
                 },
                 "/drones/1/id", "no other"},
+        BadCase{"id_in_other_case",
+                [](Missions& m) {
+                  m[1].id = "D1";
+                  m[1].moves_goal = world::GoalRef{99, 1};
+                },
+                "/drones/1/id", "more than their case"},
+        BadCase{"device_as_id", [](Missions& m) { m[1].id = "Con"; }, "/drones/1/id", "Windows"},
+        BadCase{"numbered_device_as_id", [](Missions& m) { m[1].id = "com1"; }, "/drones/1/id",
+                "Windows"},
         BadCase{"same_goal",
                 [](Missions& m) {
                   m[1].moves_goal = world::GoalRef{99, 0};

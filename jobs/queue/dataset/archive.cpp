@@ -10,6 +10,7 @@
 #include "base/files/files.h"
 #include "base/files/hash.h"
 #include "base/files/read_only_file.h"
+#include "base/text/portable_name.h"
 
 namespace throng::jobs {
 
@@ -22,6 +23,22 @@ std::int64_t tar_padding(std::int64_t bytes) { return (kTarBlock - bytes % kTarB
 void read_exactly(const fs::path& path, std::int64_t offset, std::span<char> buffer) {
   if (ReadOnlyFile(path).read_at(offset, buffer) < buffer.size()) {
     throw EnvironmentError(fmt::format("{} is shorter than the manifest says", path.string()));
+  }
+}
+
+// A dataset of another version may hold names that are one file, or none, where it is unpacked.
+void require_portable(const std::string& path, DistinctPaths& paths) {
+  if (const auto fault = path_fault(path)) {
+    throw EnvironmentError(
+        fmt::format("the dataset's file \"{}\" cannot be in an archive: {} is not "
+                    "allowed on Windows or macOS",
+                    path, *fault));
+  }
+  if (const auto clash = paths.add(path)) {
+    throw EnvironmentError(
+        fmt::format("the dataset's files \"{}\" and \"{}\" cannot be in one "
+                    "archive: they are one file on Windows and macOS",
+                    clash->earlier, path));
   }
 }
 
@@ -51,7 +68,9 @@ void Archive::choose(const Manifest& manifest, const Selection& selection) {
   files_.push_back(manifest.itself);
   std::sort(files_.begin(), files_.end(),
             [](const FileEntry& a, const FileEntry& b) { return a.path < b.path; });
+  DistinctPaths paths;
   for (const FileEntry& file : files_) {
+    require_portable(root_ + file.path, paths);
     members_.push_back({root_ + file.path, file.bytes, 0, "", file.crc32.value_or(0)});
   }
 }

@@ -22,7 +22,7 @@ namespace throng::jobs {
 class Archive {
  public:
   /// `root` names the folder inside the archive: at most 100 characters of [A-Za-z0-9._-]. Throws
-  /// EnvironmentError.
+  /// EnvironmentError, also for names that Linux, macOS or Windows does not allow or tell apart.
   Archive(std::filesystem::path dataset, const Manifest& manifest, const std::string& root,
           ArchiveFormat format = ArchiveFormat::tar, const Selection& selection = {});
   /// An archive of the files that the dataset's manifest lists.

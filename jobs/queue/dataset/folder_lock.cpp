@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 #include "base/error.h"
+#include "base/resource_exhaustion.h"
 
 namespace throng::jobs {
 
@@ -19,9 +19,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const char* name,
   // A process that may open the file may hold its lock.
   constexpr mode_t kOwnerOnly = 0600;
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
-  if (descriptor_ < 0) {
-    throw EnvironmentError(fmt::format("cannot open {}: {}", file_.string(), std::strerror(errno)));
-  }
+  if (descriptor_ < 0) throw_environment_error("cannot write to " + file_.string(), errno);
   ::fchmod(descriptor_, kOwnerOnly);  // an earlier version made it readable to all
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     ::close(descriptor_);

@@ -7,6 +7,7 @@
 #include <cerrno>
 
 #include "base/files/files.h"
+#include "base/files/writable.h"
 #include "base/resource_exhaustion.h"
 #include "jobs/queue/store/store_rows.h"
 #include "jobs/queue/store/store_schema.h"
@@ -21,6 +22,7 @@ constexpr int kBusyTimeoutMs = 5000;
 
 fs::path created(const fs::path& folder) {
   make_folders(folder);
+  require_writable_folder(folder);
   return folder;
 }
 
@@ -28,6 +30,7 @@ fs::path created(const fs::path& folder) {
 /// the same mode.
 fs::path private_file(const fs::path& path) {
   constexpr mode_t kOwnerOnly = 0600;
+  require_writable_database(path);
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
   if (descriptor < 0) throw_environment_error("cannot open " + path.string(), errno);
   ::fchmod(descriptor, kOwnerOnly);

@@ -9,11 +9,14 @@ The sets themselves are not part of throng; each has terms of its own. docs/trai
 from __future__ import annotations
 
 import difflib
+import logging
 import os
 from pathlib import Path
 from typing import Callable
 
+from .._words import counted
 from ..errors import DatasetError
+from ._files import Skipped, Skips
 from ._images import RealImage, RealSet
 from .dronecrowd import read_dronecrowd
 from .mot import read_mot
@@ -22,7 +25,9 @@ from .shanghaitech import read_shanghaitech
 from .uavdt import read_uavdt
 from .visdrone import read_visdrone
 
-REAL_SETS: dict[str, Callable[[Path], RealSet]] = {
+_LOG = logging.getLogger("throng")
+
+REAL_SETS: dict[str, Callable[[Path, Skips], list[RealImage]]] = {
     "dronecrowd": read_dronecrowd,
     "mot": read_mot,
     "nwpu": read_nwpu,
@@ -35,8 +40,10 @@ REAL_SETS: dict[str, Callable[[Path], RealSet]] = {
 def open_real_set(kind: str, folder: str | os.PathLike[str]) -> RealSet:
     """The images and labels of a folder in the layout of `kind`, a key of REAL_SETS; "mot" reads PETS 2009, too.
 
-    Labels are read at once, images when they are asked for. Errors: ValueError for another kind, DatasetError for a
-    folder of another layout and for wrong lines.
+    Labels are read at once, images when they are asked for. Damaged files and those without a counterpart are left
+    out: `skipped` of the result lists them, and one line is logged. Labels with a wrong line lose their image, in videos its
+    frame. Errors: ValueError for another kind, DatasetError for a folder of another layout or with nothing that can be
+    read.
     """
     if kind not in REAL_SETS:
         near = difflib.get_close_matches(kind, REAL_SETS, 1)
@@ -45,7 +52,17 @@ def open_real_set(kind: str, folder: str | os.PathLike[str]) -> RealSet:
     path = Path(folder)
     if not path.is_dir():
         raise DatasetError(f"{path}: found no such folder, expected a set in the layout of {kind}")
-    return REAL_SETS[kind](path)
+    skips = Skips()
+    images = []
+    for image in REAL_SETS[kind](path, skips):
+        with skips.faults():
+            image.check()
+            images.append(image)
+    found = RealSet(kind, path, images, skips.all())
+    if found.skipped:
+        count = counted(len(found.skipped), "file, folder or line", "files, folders or lines")
+        _LOG.warning("%s: skipped %s, the first %s", path, count, found.skipped[0])
+    return found
 
 
-__all__ = ["REAL_SETS", "RealImage", "RealSet", "open_real_set"]
+__all__ = ["REAL_SETS", "RealImage", "RealSet", "Skipped", "open_real_set"]

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .._optional import require
+from .._optional import available, require
 from .._words import counted
 from ..errors import DatasetError
+from ._files import Fault, Skipped, Skips, files_in, pairs, read_heads
 
 FloatArray = NDArray[np.float64]
+_END_OF_JPEG, _END_OF_PNG, _TAIL_BYTES = b"\xff\xd9", b"IEND", 1024
+_FIRST_REASONS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,22 +45,45 @@ class RealImage:
     def image(self) -> NDArray[np.uint8]:
         """(height, width, 3) RGB. Needs Pillow."""
         pil = require("PIL.Image", "image()")
-        try:
-            with pil.open(self.path, formats=("JPEG", "PNG")) as picture:
-                return np.array(picture.convert("RGB"))
-        except (OSError, SyntaxError, ValueError, pil.DecompressionBombError) as error:
-            raise DatasetError(f"{self.path}: found no whole image ({error})") from error
+        with _opened(self.path, pil) as picture:
+            return np.array(picture.convert("RGB"))
+
+    def check(self) -> None:
+        """DatasetError for an image that lacks its beginning or end, where Pillow is installed. Sets are large: what is
+        between is only decoded by image()."""
+        pil = available("PIL.Image")
+        if pil is not None:
+            with _opened(self.path, pil) as picture, open(self.path, "rb") as file:
+                file.seek(max(0, file.seek(0, os.SEEK_END) - _TAIL_BYTES))
+                if (_END_OF_PNG if picture.format == "PNG" else _END_OF_JPEG) not in file.read():
+                    picture.load()  # some have other data behind the image
+
+
+@contextmanager
+def _opened(path: Path, pil: Any) -> Iterator[Any]:
+    try:
+        with pil.open(path, formats=("JPEG", "PNG")) as picture:
+            yield picture
+    except Exception as error:  # Pillow raises many kinds for files that are damaged
+        raise Fault(path, f"found no whole image ({error})") from error
 
 
 class RealSet(Sequence[RealImage]):
     """The images of a set, sorted by their paths."""
 
-    def __init__(self, kind: str, folder: Path, images: Iterable[RealImage]) -> None:
+    def __init__(self, kind: str, folder: Path, images: Iterable[RealImage], skipped: Sequence[Skipped] = ()) -> None:
         self.kind = kind
         self.folder = folder
+        self.skipped = tuple(skipped)
+        """Files, folders and lines that were left out, each with its path, its line or None, and the reason."""
         self._images = sorted(images, key=lambda image: image.path)
         if not self._images:
-            raise DatasetError(f"{folder}: found no images with labels, expected a set in the layout of {kind}")
+            reasons = "".join(f"\n  {each}" for each in self.skipped[:_FIRST_REASONS])
+            more = len(self.skipped) - _FIRST_REASONS
+            raise DatasetError(
+                f"{folder}: found no images with labels, expected a set in the layout of {kind}"
+                f"{reasons}{f'{chr(10)}  and {more} more' if more > 0 else ''}"
+            )
 
     def __len__(self) -> int:
         return len(self._images)
@@ -70,7 +98,7 @@ class RealSet(Sequence[RealImage]):
 
     def __getitem__(self, index: int | slice) -> RealImage | RealSet:
         if isinstance(index, slice):
-            return RealSet(self.kind, self.folder, self._images[index])
+            return RealSet(self.kind, self.folder, self._images[index], self.skipped)
         return self._images[index]
 
     def __repr__(self) -> str:
@@ -81,6 +109,17 @@ class RealSet(Sequence[RealImage]):
     @property
     def has_boxes(self) -> bool:
         return all(image.boxes is not None for image in self._images)
+
+
+def read_mats(images: Path, labels: Path, skips: Skips, sequence_of: Callable[[str], str]) -> list[RealImage]:
+    """Images with heads in GT_*.mat; sequence_of gives the sequence of an image's name without its suffix."""
+    found = []
+    with skips.faults():
+        mats = [path for path in files_in(labels, (".mat",), skips) if path.stem.startswith("GT_")]
+        for path, picture in pairs(mats, images, skips, "GT_"):
+            with skips.faults():
+                found.append(RealImage(picture, sequence_of(picture.stem), None, table([], 4), read_heads(path)))
+    return found
 
 
 def table(rows: Sequence[Sequence[float]], columns: int) -> FloatArray:

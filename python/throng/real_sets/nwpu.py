@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DatasetError
-from ._files import below, find_image, read_text, wrong_layout
-from ._images import FloatArray, RealImage, RealSet, table
+from ._files import Fault, Skipped, Skips, below, files_in, pairs, read_text, wrong_layout
+from ._images import FloatArray, RealImage, table
 
 
-def read_nwpu(folder: Path) -> RealSet:
+def read_nwpu(folder: Path, skips: Skips) -> list[RealImage]:
     """Folders images/ and jsons/. If there is val.txt, only its images are taken: those that the set's authors test on.
 
     The images of test.txt have no labels. The boxes of the set are heads, so they are not used as people's.
@@ -23,42 +22,45 @@ def read_nwpu(folder: Path) -> RealSet:
         raise wrong_layout(folder, "images/ and jsons/")
     images = []
     for part in parts:
-        for path in _label_files(part):
-            picture = find_image(part / "images", path.stem, path)
-            images.append(RealImage(picture, "", None, table([], 4), _points(path)))
-    return RealSet("nwpu", folder, images)
+        with skips.faults():
+            labels, is_chosen = files_in(part / "jsons", (".json",), skips), (part / "val.txt").is_file()
+            if is_chosen:
+                labels = _chosen(part / "val.txt", labels, skips)
+            for path, picture in pairs(labels, part / "images", skips, is_whole=not is_chosen):
+                with skips.faults():
+                    images.append(RealImage(picture, "", None, table([], 4), _points(path)))
+    return images
 
 
-def _label_files(folder: Path) -> list[Path]:
-    chosen = folder / "val.txt"
-    if not chosen.is_file():
-        return sorted((folder / "jsons").glob("*.json"))
+def _chosen(listed: Path, labels: list[Path], skips: Skips) -> list[Path]:
+    by_name = {path.stem: path for path in labels}
     files = []
-    for number, line in enumerate(read_text(chosen).splitlines(), 1):
+    for number, line in enumerate(read_text(listed).splitlines(), 1):
         if not line.strip():
             continue
-        path = folder / "jsons" / f"{line.split()[0]}.json"
-        if not path.is_file():
-            raise DatasetError(f"{chosen}:{number}: found {line[:80]!r}, expected the name of a file in jsons/")
-        files.append(path)
+        path = by_name.get(line.split()[0])
+        if path is None:
+            skips.add(Skipped(listed, f"found {line[:80]!r}, expected the name of a file in jsons/", number))
+        else:
+            files.append(path)
     return files
 
 
 def _points(path: Path) -> FloatArray:
     try:
         content: Any = json.loads(read_text(path))
-    except ValueError as error:
-        if isinstance(error, DatasetError):
+    except (RecursionError, ValueError) as error:
+        if isinstance(error, Fault):
             raise
-        raise DatasetError(f"{path}: found no JSON ({error})") from error
+        raise Fault(path, f"found no JSON ({error})") from error
     points = content.get("points") if isinstance(content, dict) else None
     if not isinstance(points, list):
-        raise DatasetError(f"{path}: /points: found {type(points).__name__}, expected a list of [x, y]")
+        raise Fault(path, f"/points: found {type(points).__name__}, expected a list of [x, y]")
     for i, point in enumerate(points):
         is_pair = isinstance(point, list) and len(point) == 2
         if not is_pair or not all(isinstance(value, (int, float)) and np.isfinite(value) for value in point):
-            raise DatasetError(f"{path}: /points/{i}: found {str(point)[:80]}, expected [x, y]")
+            raise Fault(path, f"/points/{i}: found {str(point)[:80]}, expected [x, y]")
     human_num = content.get("human_num", len(points))
     if human_num != len(points):
-        raise DatasetError(f"{path}: /human_num: found {human_num}, expected {len(points)}, the number of points")
+        raise Fault(path, f"/human_num: found {human_num}, expected {len(points)}, the number of points")
     return table(points, 2)

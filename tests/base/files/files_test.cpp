@@ -1,7 +1,11 @@
 #include "base/files/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <string>
 #include <thread>
@@ -71,6 +75,28 @@ TEST(Files, AFullDiskIsSaid) {
   } catch (const EnvironmentError& error) {
     EXPECT_STREQ(error.what(), "cannot write a/file: No space left on device");
   }
+}
+
+TEST(Files, PipesAndDevicesAreWrittenDirectly) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("pipe", folder.path() / "link");
+  fs::create_symlink("/dev/null", folder.path() / "null");
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  for (const char* name : {"pipe", "link", "null"}) {
+    write_file_atomically(folder.path() / name, "text");
+    EXPECT_FALSE(fs::is_regular_file(folder.path() / name)) << name;
+  }
+  { const StagedFile abandoned(pipe); }
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  std::array<char, 20> block{};
+  EXPECT_EQ(::read(reader, block.data(), block.size()), 8);
+  EXPECT_STREQ(block.data(), "texttext");
+  ::close(reader);
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(folder.entries(), 3U);
 }
 
 TEST(Files, ReaderNeverSeesAPartOfAFile) {

@@ -124,6 +124,9 @@ TEST_F(StudyFile, MistakesAreNamedWhereTheyStand) {
   EXPECT_EQ(where("/horizons_s", {15, 10}), "/horizons_s/1");
   EXPECT_EQ(where("/horizons_s", {-1, 10}), "/horizons_s/0");
   EXPECT_EQ(where("/policies/1/id", "none"), "/policies/1/id");
+  EXPECT_EQ(where("/policies/1/id", "None"), "/policies/1/id") << "one folder on Windows";
+  EXPECT_EQ(where("/policies/1/id", "aux"), "/policies/1/id");
+  EXPECT_EQ(where("/cases/0/id", "NUL"), "/cases/0/id");
   EXPECT_EQ(where("/policies/1/drones/0/guidance/policy", "dance"),
             "/policies/1/drones/0/guidance/policy");
   EXPECT_EQ(where("/policies/1/drones/0/start", {-16, -5, 3}), "/policies/1/drones/0/start");

@@ -76,6 +76,78 @@ TEST_F(HostileClients, LargeBodiesAreRefusedUnread) {
       << "strangers may not send bodies anywhere";
 }
 
+constexpr const char* kChunked =
+    " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    "Transfer-Encoding: chunked\r\n";
+
+std::string in_chunks(const std::string& body, std::size_t size) {
+  std::string text;
+  for (std::size_t at = 0; at < body.size(); at += size) {
+    const std::string chunk = body.substr(at, size);
+    text += fmt::format("{:x};n={}\r\n{}\r\n", chunk.size(), at, chunk);
+  }
+  return text + "0\r\nX-Sum: 1\r\n\r\n";
+}
+
+TEST_F(HostileClients, ChunkedBodiesAreThoseWithALength) {
+  const std::string body = kJob;
+  for (const std::size_t size : {std::size_t{1}, std::size_t{50}, body.size()}) {
+    const RawConnection connection(api.port());
+    for (int i = 0; i < 2; ++i) {  // on the same connection
+      connection.send(std::string("POST /v1/jobs?dry_run") + kChunked + "\r\n" +
+                      in_chunks(body, size));
+    }
+    connection.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    const std::string answers = connection.read();
+    std::size_t count = 0;
+    for (auto at = answers.find("HTTP/1.1 200"); at != std::string::npos;
+         at = answers.find("HTTP/1.1 200", at + 1)) {
+      ++count;
+    }
+    EXPECT_EQ(count, 3U) << answers;
+  }
+}
+
+TEST_F(HostileClients, ChunksAreReadOnceNothingSpeaksAgainstThem) {
+  // The chunks never come: the answers do not wait for them.
+  EXPECT_THAT(raw(std::string("POST /v1/jobs") + kChunked + "\r\n2000000\r\n"),
+              StartsWith("HTTP/1.1 413"));
+  EXPECT_THAT(raw(std::string("POST /v1/nothing") + kChunked + "\r\n"), StartsWith("HTTP/1.1 404"));
+  const std::string expecting = std::string(kChunked) + "Expect: 100-continue\r\n\r\n";
+  const RawConnection connection(api.port());
+  connection.send("POST /v1/jobs?dry_run" + expecting);
+  EXPECT_EQ(connection.read("\r\n\r\n"), "HTTP/1.1 100 Continue\r\n\r\n");
+  connection.send(in_chunks("[]", 1));
+  EXPECT_THAT(connection.read("\r\n\r\n"), StartsWith("HTTP/1.1 400 "));
+  keys.create("somebody", Scope::admin);
+  EXPECT_THAT(raw("POST /v1/jobs" + expecting), StartsWith("HTTP/1.1 401"));
+}
+
+TEST_F(HostileClients, ChunksThatTakeTooLongAreCutOff) {
+  HttpOptions options = patient_http();
+  options.connection.silence = std::chrono::milliseconds(20);
+  HttpServer hasty(options, [](const httplib::Request&, httplib::Response& response,
+                               const HttpError& error) { response.status = error.status; });
+  hasty.routes().Post("/", [](const httplib::Request&, httplib::Response&) {});
+  const std::jthread serving([&] { hasty.run(); });
+  for (const char* part : {"", "5", "5\r\nhel", "5\r\nhello\r\n", "0\r\n", "0\r\nX: y\r\n"}) {
+    const RawConnection connection(hasty.port());
+    connection.send(std::string("POST /") + kChunked + "\r\n" + part);
+    EXPECT_THAT(connection.read(), StartsWith("HTTP/1.1 408 ")) << part;
+  }
+  hasty.stop();
+  options = patient_http();
+  options.connection.body_timeout = std::chrono::milliseconds(0);
+  options.connection.body_bytes_per_s = 1e15;  // which nobody reaches
+  HttpServer demanding(options, [](const httplib::Request&, httplib::Response& response,
+                                   const HttpError& error) { response.status = error.status; });
+  const std::jthread serving_too([&] { demanding.run(); });
+  const RawConnection connection(demanding.port());
+  connection.send(std::string("POST /") + kChunked + "\r\n1\r\nx");
+  EXPECT_THAT(connection.read(), StartsWith("HTTP/1.1 408 "));
+  demanding.stop();
+}
+
 TEST_F(HostileClients, RequestsSentTogetherAreAllAnswered) {
   const std::string one = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
   const std::string answers = raw(one + "\r\n" + one + "\r\n" + one + "Connection: close\r\n\r\n");
@@ -107,6 +179,17 @@ TEST_F(HostileClients, UploadsShareTheMemoryThereIs) {
   };
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(is_taken());
   EXPECT_EQ(honest.Post("/", std::string(4 << 20, 'x'), "text/plain")->status, 503);
+  EXPECT_TRUE(is_taken());
+  const auto chunked = [&](std::size_t bytes) {
+    const RawConnection connection(small.port());
+    connection.send(std::string("POST /") + kChunked + "Connection: close\r\n\r\n" +
+                    in_chunks(std::string(bytes, 'x'), 100'000));
+    return connection.read();
+  };
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(wait_until([&] { return chunked(2 << 20).ends_with("2097152"); }));
+  }
+  EXPECT_THAT(chunked(4 << 20), StartsWith("HTTP/1.1 503 "));
   EXPECT_TRUE(is_taken());
   small.stop();
 }

@@ -147,9 +147,13 @@ TEST(RequestHead, LengthsAreOnePlainNumber) {
   EXPECT_EQ(taken("POST / HTTP/1.1\r\nHost: a\r\nContent_Length: 5\r\n\r\n").content_length, 0U);
 }
 
-TEST(RequestHead, ChunkedBodiesAreRefused) {
-  EXPECT_EQ(status_of_post("Transfer-Encoding: chunked\r\n"), 411);
-  EXPECT_EQ(status_of_post("Transfer-Encoding: Chunked\r\n"), 411);
+TEST(RequestHead, OneTransferCodingIsKnown) {
+  EXPECT_EQ(status_of_post("Transfer-Encoding: chunked\r\n"), 200);
+  EXPECT_EQ(status_of_post("Transfer-Encoding: Chunked\r\n"), 200);
+  EXPECT_FALSE(taken("POST / HTTP/1.1\r\nHost: a\r\n\r\n").is_chunked);
+  const RequestHead head = taken(
+      "POST / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\nExpect: 100-continue\r\n\r\n");
+  EXPECT_TRUE(head.is_chunked && head.expects_continue && head.content_length == 0);
   for (const char* coding : {"gzip, chunked", "chunked, chunked", "xchunked", "chunked;q=1",
                              "\x0b"
                              "chunked",

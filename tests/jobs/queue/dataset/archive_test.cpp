@@ -66,6 +66,33 @@ class ArchiveTest : public testing::Test {
   std::vector<FileEntry> files;
 };
 
+TEST_F(ArchiveTest, NamesAreDistinctAndAllowedOnAllSystems) {
+  const auto refusal = [&](const std::vector<std::string>& paths) -> std::string {
+    files.clear();
+    for (const std::string& path : paths) add(path, "x");
+    write_manifest();
+    for (const ArchiveFormat format : {ArchiveFormat::tar, ArchiveFormat::zip}) {
+      try {
+        const Archive archive(folder.path(), "square", format);
+      } catch (const EnvironmentError& error) {
+        if (format == ArchiveFormat::zip) return error.what();
+      }
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal({"images/a/0.jpg", "images/b/0.jpg"}), "");
+  EXPECT_EQ(
+      refusal({"images/A/0.jpg", "images/a/0.jpg"}),
+      "the dataset's files \"square/images/A\" and \"square/images/a/0.jpg\" cannot be in one "
+      "archive: they are one file on Windows and macOS");
+  EXPECT_NE(refusal({"x/A.txt", "x/a.TXT"}), "");
+  EXPECT_NE(refusal({"Manifest.json"}), "") << "the manifest is a file, too";
+  EXPECT_NE(refusal({"images/con/0.jpg"}), "");
+  EXPECT_NE(refusal({"cameras/com1.ros.yaml"}), "");
+  EXPECT_NE(refusal({"cameras/a:b"}), "");
+  EXPECT_NE(refusal({"cameras/a."}), "");
+}
+
 TEST_F(ArchiveTest, ReadersFindEveryFileWithItsBytes) {
   add("images/run000/d1/000001.jpg", std::string(1000, 'j'));
   add("empty", "");
