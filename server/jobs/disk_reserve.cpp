@@ -34,8 +34,7 @@ void DiskReserve::keep() {
   if (file < 0) return;
   // Some of the free space holds what the disk notes of a file.
   for (std::int64_t bytes = std::min(kBytes, free_bytes);
-       bytes >= kMinBytes && ::posix_fallocate(file, 0, bytes) != 0;
-       bytes -= bytes / kStepShare) {
+       bytes >= kMinBytes && ::posix_fallocate(file, 0, bytes) != 0; bytes -= bytes / kStepShare) {
   }
   ::close(file);
 }
