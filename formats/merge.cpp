@@ -181,6 +181,10 @@ class Merger {
       if (!fs::is_regular_file(source)) {
         throw InputError({source.string(), "", "no such file", "a file of the manifest"});
       }
+      if (hashes_of_file(source).sha256_hex != entry.at("sha256")) {
+        throw InputError({source.string(), "", "a file whose SHA-256 is not that of manifest.json",
+                          "the file as it was written (`throng validate`)"});
+      }
       const std::string stem = path.stem().string();
       const auto at = std::find(part.runs.begin(), part.runs.end(), stem);
       const std::optional<std::string> shifted =

@@ -12,6 +12,7 @@
 #include "annotate/people/coco.h"
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/untrusted_folders.h"
 #include "base/json/json_text.h"
 
 namespace throng::formats {
@@ -151,7 +152,7 @@ class NewIds {
 /// Lines of a COCO file that throng wrote: a header, and lists with a record in each line.
 class Lines {
  public:
-  explicit Lines(const fs::path& path) : path_(path), file_(path) {}
+  explicit Lines(const fs::path& path) : path_(path), file_(open_stream(path)) {}
 
   std::string next() {
     std::string line;

@@ -12,6 +12,8 @@ module that it does not include, and none after it in THRONG_ALL_MODULES. A publ
 outside of the module, unless the module is in THRONG_LIBRARY_MODULES. A module is not linked with what it REFUSES, be it
 through others.
 
+What reads datasets of others opens files by base/files/untrusted_folders.h only, which follows no links.
+
 A module declares all folders in it by throng_folder(), its own one ("."), too. A file in one may include its own folder,
 the module's own (the interface, and what all share) and those that the folder USES, which precede it.
 """
@@ -25,6 +27,8 @@ import sys
 KEYWORDS = {"PUBLIC", "SOURCES", "MODULES", "LIBRARIES", "PRIVATE_LIBRARIES", "REFUSES"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">\n]+)[">]', re.M)
 MAX_FILES = 40  # of a folder
+READS_DATASETS = ("formats", "jobs/bucket")
+OPENS_A_FILE = re.compile(r"\bifstream \w+[({]|\bfopen\(|\bO_RDONLY\b|\bcopy_file\(|\bcreate_hard_link\(|\bH5Fopen\(")
 
 
 @dataclasses.dataclass
@@ -174,6 +178,9 @@ class Check:
         for path in self.of.files:
             for header, line in self.of.includes(path):
                 self.judge(path, header, line)
+        for path in self.of.files:
+            if self.of.module_of(path) in READS_DATASETS:
+                self.check_opening(path)
         for name in self.declared:
             self.check_declaration(self.of.modules[name])
             self.check_folders(self.of.modules[name])
@@ -218,6 +225,14 @@ class Check:
             self.violations.append(
                 f"{path}:{line}: includes {header}, but folder '{here}' does not use '{there}' (USES in {module}/CMakeLists.txt)"
             )
+
+    def check_opening(self, path):
+        for number, line in enumerate((self.of.root / path).read_text(encoding="utf-8").splitlines(), 1):
+            if found := OPENS_A_FILE.search(line):
+                self.violations.append(
+                    f"{path}:{number}: {found[0]} follows links, which datasets of others may have; use open_stream(), "
+                    "open_for_reading() or link_or_copy()"
+                )
 
     def check_declaration(self, module):
         where = f"{module.name}/CMakeLists.txt: module '{module.name}'"

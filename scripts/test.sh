@@ -174,7 +174,7 @@ step_tsan() {
 step_fuzz() {
   say "fuzzing the files' readers (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build asan throng_fuzz
-  printf '%s\n' crowd files imports bundle json head job cameras | xargs -P "$(nproc)" -I TARGET env SECONDS_EACH="${1:-10}" bash -c '
+  printf '%s\n' crowd files imports bundle json head job cameras datasets | xargs -P "$(nproc)" -I TARGET env SECONDS_EACH="${1:-10}" bash -c '
     mkdir -p build/fuzz/corpus/TARGET
     build/asan/tests/fuzz/fuzz_TARGET -max_total_time=$SECONDS_EACH -timeout=60 -rss_limit_mb=3000 -max_len=8000 \
       -dict=tests/fuzz/crowd.dict -artifact_prefix=build/fuzz/TARGET- -print_final_stats=1 -verbosity=0 \

@@ -107,6 +107,10 @@ void write_temporary_file(const fs::path& path, std::string_view bytes) {
 
 void link_or_copy(const fs::path& from, const fs::path& to) {
   std::error_code error;
+  if (fs::symlink_status(from, error).type() != fs::file_type::not_found &&
+      !exists_without_links(from)) {
+    throw InputError({from.string(), "", "a link", "a regular file, without links on its path"});
+  }
   fs::create_hard_link(from, to, error);
   if (error == std::errc::no_such_file_or_directory) {
     fs::create_directories(parent_folder(to), error);

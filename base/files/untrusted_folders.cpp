@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <mutex>
 #include <shared_mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -96,6 +97,18 @@ void distrust_folders_in(const fs::path& area) {
 }
 
 int open_for_reading(const fs::path& file) { return open_file(file, O_RDONLY); }
+
+std::ifstream open_stream(const fs::path& file) {
+  std::ifstream stream;
+  const int descriptor = open_for_reading(file);
+  if (descriptor < 0) {
+    stream.setstate(std::ios::failbit);
+    return stream;
+  }
+  stream.open("/proc/self/fd/" + std::to_string(descriptor), std::ios::binary);
+  ::close(descriptor);
+  return stream;
+}
 
 int open_for_appending(const fs::path& file) {
   return open_file(file, O_WRONLY | O_CREAT | O_APPEND);

@@ -4,18 +4,22 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 
 namespace throng {
 
-/// From now on, this process opens files below each folder that lies directly in `area` only if
-/// they are regular files and no part of their path below `area` is a link. read_file(),
-/// ReadOnlyFile and the hashes of files (base/files/) obey. Safe to call from many threads.
+/// From now on, this process opens files below `area` only if they are regular files and no part of
+/// their path below `area` is a link. read_file(), link_or_copy(), ReadOnlyFile and the hashes of
+/// files (base/files/) obey. Safe to call from many threads.
 void distrust_folders_in(const std::filesystem::path& area);
 
 /// Opens a file for reading and returns its descriptor, or -1 with errno set. For a file below a
 /// folder that is not trusted, errno is ELOOP if a part of the path is a link and EACCES if it is
 /// not a regular file.
 int open_for_reading(const std::filesystem::path& file);
+
+/// A stream for reading a file, opened like open_for_reading(); not good() where that fails.
+std::ifstream open_stream(const std::filesystem::path& file);
 
 /// Opens or creates a file to append to, otherwise like open_for_reading().
 int open_for_appending(const std::filesystem::path& file);

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/untrusted_folders.h"
 
 namespace throng::formats {
 
@@ -22,8 +23,8 @@ bool are_equal(const fs::path& a, const fs::path& b) {
   if (fs::equivalent(a, b)) return true;
   if (fs::file_size(a) != fs::file_size(b)) return false;
   constexpr std::size_t kBlock = 1 << 20;
-  std::ifstream first(a, std::ios::binary);
-  std::ifstream second(b, std::ios::binary);
+  std::ifstream first = open_stream(a);
+  std::ifstream second = open_stream(b);
   std::string one(kBlock, '\0');
   std::string other(kBlock, '\0');
   while (first && second) {

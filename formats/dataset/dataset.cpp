@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -10,6 +11,9 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/path_below.h"
+#include "base/files/untrusted_folders.h"
+#include "base/json/json_describe.h"
 #include "base/json/json_text.h"
 #include "spec/sim/airframe.h"
 
@@ -246,6 +250,50 @@ std::vector<Split> DatasetInfo::splits() const {
   return used;
 }
 
+namespace {
+
+/// Run names have three digits or more: run000.
+bool is_run_name(std::string_view text) {
+  constexpr std::size_t kDigitsFrom = 3;
+  constexpr std::size_t kMinSize = 6;
+  return text.size() >= kMinSize && text.starts_with("run") &&
+         text.find_first_not_of("0123456789", kDigitsFrom) == std::string_view::npos;
+}
+
+/// A list of the manifest whose members become names of files and folders.
+struct NamedList {
+  const char* pointer;
+  const char* member;  ///< of each entry; "": the entry itself
+  bool (*is_good)(std::string_view name);
+  const char* expected;
+};
+
+constexpr std::array kNamedLists = {
+    NamedList{"/files", "path", is_path_below, "the path of a file below the dataset's folder"},
+    NamedList{"/runs", "run", is_run_name, "the name of a run, such as run000"},
+    NamedList{"/job/drones", "id", is_path_part, "an id that is no path"},
+    NamedList{"/job/outputs/formats", "", is_path_part, "the name of a format"}};
+
+void check_names(const json& manifest, const std::string& source) {
+  constexpr std::size_t kMaxProblems = 20;
+  std::vector<Problem> problems;
+  for (const NamedList& list : kNamedLists) {
+    const json::json_pointer place(list.pointer);
+    const json entries = manifest.contains(place) ? manifest.at(place) : json();
+    if (!entries.is_array()) continue;
+    const json::json_pointer member(*list.member == '\0' ? "" : fmt::format("/{}", list.member));
+    for (std::size_t i = 0; i < entries.size() && problems.size() < kMaxProblems; ++i) {
+      if (!entries[i].contains(member)) continue;
+      const json& name = entries[i].at(member);
+      if (name.is_string() && list.is_good(name.get_ref<const std::string&>())) continue;
+      problems.push_back({source, (place / i / member).to_string(), describe(name), list.expected});
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+}  // namespace
+
 json read_manifest(const fs::path& root) {
   const fs::path file = root / "manifest.json";
   if (!fs::is_regular_file(file)) {
@@ -254,7 +302,14 @@ json read_manifest(const fs::path& root) {
     throw InputError({root.string(), "", "no manifest.json",
                       is_job ? "a finished dataset, as " + below.string() : "a finished dataset"});
   }
-  return parse_json(read_file(file), file.string(), kOwnJsonLimits);
+  distrust_folders_in(root);
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (!entry.is_symlink()) continue;
+    throw InputError({entry.path().string(), "", "a link", "a file or folder of the dataset"});
+  }
+  json manifest = parse_json(read_file(file), file.string(), kOwnJsonLimits);
+  check_names(manifest, file.string());
+  return manifest;
 }
 
 InputError bad_manifest(const fs::path& root, const json::exception& error) {
@@ -359,7 +414,8 @@ void check_images_have_labels(const DatasetInfo& info) {
 /// The records of one array of the COCO file: one per line.
 class DatasetReader::Lines {
  public:
-  Lines(fs::path path, const std::string& start) : path_(std::move(path)), file_(path_) {
+  Lines(fs::path path, const std::string& start)
+      : path_(std::move(path)), file_(open_stream(path_)) {
     if (!file_) throw EnvironmentError(fmt::format("cannot read {}", path_.string()));
     while (std::getline(file_, line_)) {
       ++number_;
@@ -444,6 +500,17 @@ DatasetReader::DatasetReader(const DatasetInfo& info)
 
 DatasetReader::~DatasetReader() = default;
 
+void DatasetReader::check_names_of(const Image& image) const {
+  const std::vector<std::string>& runs = info_->runs;
+  if (!is_path_below(image.file)) {
+    images_->fail(describe(image.file), "the path of a file below the dataset's folder");
+  }
+  if (std::find(runs.begin(), runs.end(), image.run) == runs.end()) {
+    images_->fail(describe(image.run), "a run of the manifest");
+  }
+  if (!is_path_part(image.camera)) images_->fail(describe(image.camera), "the id of a camera");
+}
+
 bool DatasetReader::next(Image& image) {
   json record = images_->next();
   if (record.is_null()) {
@@ -453,6 +520,7 @@ bool DatasetReader::next(Image& image) {
   const Lines* at = images_.get();
   try {
     read_image(std::move(record), *info_, image);
+    check_names_of(image);
     at = annotations_.get();
     tracks_->enter(image.run, info_->runs);
     while (!waiting_.is_null() && waiting_.at("image_id") == image.id) {

@@ -151,7 +151,9 @@ DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::
 /// Throws InputError if a dataset has images without COCO annotations.
 void check_images_have_labels(const DatasetInfo& info);
 
-/// Reads manifest.json. Throws InputError if `root` is not a finished dataset.
+/// Reads manifest.json. From then on, this process follows no links below `root`. Throws InputError
+/// if `root` is not a finished dataset, contains a link, or names of files, runs or drones lead out
+/// of it.
 nlohmann::json read_manifest(const std::filesystem::path& root);
 
 /// The error to throw if a value of the manifest could not be read because of `error`.
@@ -177,6 +179,8 @@ class DatasetReader {
  private:
   class Lines;
   class Tracks;
+  /// They become paths of what is read and written.
+  void check_names_of(const Image& image) const;
   const DatasetInfo* info_;
   std::unique_ptr<Tracks> tracks_;
   std::unique_ptr<Lines> images_;

@@ -6,6 +6,8 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/files/files.h"
+#include "base/files/path_below.h"
 #include "base/resource_exhaustion.h"
 #include "formats/dataset/comparison.h"
 
@@ -21,7 +23,16 @@ fs::path with_folder(fs::path path) {
   return path;
 }
 
+const fs::path& below(const fs::path& path) {
+  require_path_below(path.generic_string(), "export", "");
+  return path;
+}
+
 }  // namespace
+
+OutputStream Output::open(const fs::path& path) const {
+  return {folder_ / below(path), comparison_, path};
+}
 
 OutputStream::OutputStream(fs::path path)
     : path_(with_folder(std::move(path))), file_(path_, std::ios::binary) {
@@ -63,7 +74,7 @@ void Output::write(const fs::path& path, std::string_view bytes) const {
     comparison_->bytes(path, bytes);
     return;
   }
-  OutputStream file(folder_ / path);
+  OutputStream file(folder_ / below(path));
   file.write(bytes);
   file.close();
 }
@@ -73,14 +84,7 @@ void Output::link(const fs::path& path, const fs::path& source) const {
     comparison_->file(path, source);
     return;
   }
-  const fs::path place = with_folder(folder_ / path);
-  std::error_code error;
-  fs::create_hard_link(source, place, error);
-  if (error) fs::copy_file(source, place, error);
-  if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot copy {} to {}: {}", source.string(), place.string(), error.message()));
-  }
+  link_or_copy(source, folder_ / below(path));
 }
 
 }  // namespace throng::formats

@@ -29,7 +29,7 @@ class OutputStream {
 };
 
 /// Writes files below a folder, or compares them with existing files. All members throw
-/// EnvironmentError.
+/// EnvironmentError, and InputError for a path that leads out of the folder.
 class Output {
  public:
   /// With a comparison, no file stays in the folder: all are compared with the existing files.
@@ -38,9 +38,7 @@ class Output {
 
   const std::filesystem::path& folder() const { return folder_; }
   void write(const std::filesystem::path& path, std::string_view bytes) const;
-  OutputStream open(const std::filesystem::path& path) const {
-    return {folder_ / path, comparison_, path};
-  }
+  OutputStream open(const std::filesystem::path& path) const;
   /// Call it after a file below folder() was written without OutputStream and closed.
   void written(const std::filesystem::path& path) const;
   /// Adds `source` under the name `path`: as a hard link, or as a copy if links do not work.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/files/untrusted_folders.h"
 #include "base/text/csv.h"
 #include "formats/files/csv_table.h"
 
@@ -36,7 +37,8 @@ constexpr std::array kNames{"time_s",
 
 }  // namespace
 
-SensorTable::SensorTable(std::filesystem::path path) : path_(std::move(path)), file_(path_) {
+SensorTable::SensorTable(std::filesystem::path path)
+    : path_(std::move(path)), file_(open_stream(path_)) {
   std::string header;
   if (!std::getline(file_, header)) {
     throw InputError({path_.string(), "", "no header", "a table of sensors"});

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "annotate/people/keypoints.h"
+#include "base/files/untrusted_folders.h"
 #include "formats/dataset/joints.h"
 #include "formats/dataset/mask.h"
 #include "formats/export/makers.h"
@@ -36,7 +37,7 @@ class Aside {
   }
   void move_to(OutputStream& output) {
     stream_.close();
-    std::ifstream all(path_, std::ios::binary);
+    std::ifstream all = open_stream(path_);
     std::string block(1 << 20, '\0');
     while (all.read(block.data(), static_cast<std::streamsize>(block.size())) || all.gcount() > 0) {
       output.write(std::string_view(block).substr(0, static_cast<std::size_t>(all.gcount())));

@@ -14,6 +14,7 @@
 
 #include "annotate/rasters/png.h"
 #include "base/error.h"
+#include "base/files/untrusted_folders.h"
 #include "base/graphics/images/raster.h"
 #include "formats/dataset/instances.h"
 #include "formats/dataset/raster_files.h"
@@ -175,7 +176,7 @@ class PanopticExporter : public Exporter {
   void take_over(OutputStream& file, Split split, Aside& aside, const char* suffix) {
     aside.stream.close();
     const fs::path path = output_.folder() / (annotations_path(split) + suffix);
-    std::ifstream from(path, std::ios::binary);
+    std::ifstream from = open_stream(path);
     for (std::string line; std::getline(from, line);) {
       if (!line.empty()) file.write("\n" + line);
     }

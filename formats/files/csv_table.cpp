@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/files/untrusted_folders.h"
 #include "base/text/csv.h"
 
 namespace throng::formats {
@@ -18,7 +19,7 @@ std::size_t CsvTable::find(const std::string& name) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& path) {
-  std::ifstream file(path);
+  std::ifstream file = open_stream(path);
   std::string line;
   if (!file || !std::getline(file, line)) {
     throw InputError({path.string(), "", "no such file, or an empty one", "a table"});

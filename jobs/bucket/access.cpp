@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/files/untrusted_folders.h"
 #include "base/text/words.h"
 
 namespace throng::bucket {
@@ -36,7 +37,7 @@ fs::path file_named(const char* name, const char* in_home) {
 
 /// Adds the values of a section of a file; those that are there stay. Nothing if there is no file.
 void add_section(const fs::path& path, std::string_view section, Values& values) {
-  std::ifstream file(path);
+  std::ifstream file = open_stream(path);
   bool is_in_section = false;
   for (std::string line; std::getline(file, line);) {
     const std::string_view text = trimmed(line);

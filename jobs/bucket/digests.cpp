@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files/hash.h"
+#include "base/files/untrusted_folders.h"
 
 namespace throng::bucket {
 
@@ -52,7 +53,7 @@ class Digester {
 
 FileDigest digest_of_file(const std::filesystem::path& path, std::int64_t part_size_bytes) {
   constexpr std::int64_t kBlockBytes = 1 << 20;
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_stream(path);
   if (!file) throw EnvironmentError(fmt::format("cannot read {}", path.string()));
   const bool has_parts =
       std::filesystem::file_size(path) > static_cast<std::uintmax_t>(part_size_bytes);

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/files/hash.h"
+#include "base/files/untrusted_folders.h"
 #include "base/text/words.h"
 #include "jobs/bucket/requests.h"
 #include "jobs/queue/dataset/manifest.h"
@@ -37,15 +38,8 @@ jobs::Manifest manifest_in(const fs::path& dataset) {
     throw InputError(Problem{"", dataset.string(), fmt::format("no {}", jobs::kManifestName),
                              "the folder of a finished dataset"});
   }
-  jobs::Manifest manifest = jobs::read_manifest(dataset);
-  for (const FileEntry& file : manifest.files) {
-    const fs::path path = fs::path(file.path).lexically_normal();
-    if (path.is_absolute() || path.empty() || *path.begin() == ".." || path != file.path) {
-      throw InputError(Problem{(dataset / jobs::kManifestName).string(), "/files",
-                               fmt::format("\"{}\"", file.path), "a file of the dataset"});
-    }
-  }
-  return manifest;
+  distrust_folders_in(dataset);
+  return jobs::read_manifest(dataset);
 }
 
 class Publisher {

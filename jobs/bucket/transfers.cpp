@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/files/hash.h"
+#include "base/files/untrusted_folders.h"
 #include "base/text/words.h"
 #include "jobs/bucket/listing.h"
 #include "jobs/bucket/url_text.h"
@@ -224,7 +225,7 @@ void Transfers::Transfer::begin(const Access& access, const std::string& url) {
   ++attempts;
   const Request& request = work.request;
   if (!request.payload.file.empty()) {
-    file = ::open(request.payload.file.c_str(), O_RDONLY | O_CLOEXEC);
+    file = open_for_reading(request.payload.file);
     if (file < 0) {
       throw EnvironmentError(
           fmt::format("cannot read {}: {}", request.payload.file.string(), std::strerror(errno)));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/untrusted_folders.h"
 #include "formats/validate/findings.h"
 
 namespace throng::formats {
@@ -64,7 +65,7 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
       check_yolo(info, image, folder, format == "yolo-detect", findings);
     } else if (format == "visdrone-det") {
       const fs::path file = in_a_split(folder, fs::path("annotations") / (image.stem() + ".txt"));
-      std::ifstream text(file);
+      std::ifstream text = open_stream(file);
       compare(file.lexically_relative(info.root).string(), image, text,
               label_values(info, format, image), findings);
       if (std::string line; std::getline(text, line)) {
@@ -77,7 +78,7 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
       const fs::path file = in_a_split(folder, rest);
       const std::string name = file.lexically_relative(info.root).string();
       auto [text, is_new] = texts_.try_emplace(name);
-      if (is_new) text->second.open(file);
+      if (is_new) text->second = open_stream(file);
       compare(name, image, text->second, label_values(info, format, image), findings);
     }
   }
@@ -145,7 +146,7 @@ void FormatCheck::check_yolo(const DatasetInfo& info, const Image& image, const 
   const fs::path file = in_a_split(folder / "labels", image.stem() + ".txt");
   const std::string name = file.lexically_relative(info.root).string();
   std::vector<std::vector<double>> lines;
-  std::ifstream text(file);
+  std::ifstream text = open_stream(file);
   for (std::string line; std::getline(text, line);) {
     lines.push_back(yolo_box(numbers_in(line), image));
   }

@@ -8,6 +8,7 @@
 
 #include "annotate/people/coco.h"
 #include "annotate/people/person_record.h"
+#include "base/files/untrusted_folders.h"
 #include "base/json/json_text.h"
 #include "formats/validate/findings.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 /// Everything before the file's first record; null if that is no JSON.
 json head_of_file(const DatasetInfo& info) {
-  std::ifstream file(info.root / kCocoFile);
+  std::ifstream file = open_stream(info.root / kCocoFile);
   std::string text;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("\"images\":") || line.starts_with("\"tracks\":")) break;

@@ -21,7 +21,8 @@ struct Manifest {
 };
 
 /// Reads the manifest of a dataset with little more memory than the result needs. Throws
-/// EnvironmentError if the manifest is missing or damaged.
+/// EnvironmentError if the manifest is missing or damaged, and InputError if it names a file that
+/// is not below the dataset's folder.
 Manifest read_manifest(const std::filesystem::path& dataset);
 
 }  // namespace throng::jobs
