@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <system_error>
-#include <utility>
 
 namespace throng::server {
 
 namespace fs = std::filesystem;
 
-DiskReserve::DiskReserve(fs::path folder) : file_(std::move(folder) / "reserve") {
+DiskReserve::DiskReserve(const fs::path& folder) : file_(folder / "reserve") {
   std::error_code ignored;
   fs::remove(file_, ignored);
 }

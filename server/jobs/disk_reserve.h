@@ -13,7 +13,7 @@ namespace throng::server {
 class DiskReserve {
  public:
   /// Frees what an earlier process kept in `folder`, until started() is called.
-  explicit DiskReserve(std::filesystem::path folder);
+  explicit DiskReserve(const std::filesystem::path& folder);
 
   /// Keeps the space, or as much of it as there is, unless somebody uses it. Called once.
   void started() { end_use(); }

@@ -196,12 +196,14 @@ class MissionCheck {
   const world::DroneStart* known_ = nullptr;
 };
 
-// Ids are names of the dataset's folders, which is brought to other systems.
-void check_id(const std::vector<DroneMission>& missions, std::size_t i,
+/// Ids are names of the dataset's folders, which is brought to other systems. Returns false for a
+/// wrong one.
+bool check_id(const std::vector<DroneMission>& missions, std::size_t i,
               std::vector<Problem>& problems) {
   const std::string& id = missions[i].id;
   const auto refuse = [&](std::string found, const char* expected) {
     problems.push_back({"", fmt::format("/drones/{}/id", i), std::move(found), expected});
+    return false;
   };
   if (is_device_name(id)) {
     return refuse(fmt::format("\"{}\", a device of Windows", id),
@@ -215,6 +217,7 @@ void check_id(const std::vector<DroneMission>& missions, std::size_t i,
     return refuse(fmt::format("\"{}\" and \"{}\", one folder on Windows and macOS", other, id),
                   "ids that differ in more than their case");
   }
+  return true;
 }
 
 }  // namespace
@@ -229,8 +232,8 @@ std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
     drones.push_back(MissionCheck(scenario, missions[i], i, problems).plan(airframes));
     drones[i].scenario = &scenario;
     drones[i].index = static_cast<int>(i);
-    check_id(missions, i, problems);
-    for (std::size_t j = 0; j < i; ++j) {
+    const bool has_good_id = check_id(missions, i, problems);
+    for (std::size_t j = 0; j < i && has_good_id; ++j) {
       if (drones[i].moves_goal && drones[j].moves_goal == drones[i].moves_goal) {
         problems.push_back({"", fmt::format("/drones/{}/moves_goal", i),
                             fmt::format("the goal that drone \"{}\" moves", missions[j].id),
