@@ -6,6 +6,10 @@
 
 namespace throng {
 
+/// Rule of a JSON Schema, true where a text has no control characters: a "pattern" would do, but
+/// regular expressions of the C++ library end the process at long texts.
+inline constexpr const char* kOneLine = "x-one-line";
+
 /// Whether a UTF-8 text has a control character: U+0000 to U+001F or U+007F to U+009F. Terminals
 /// act on them, and lists and logs show one line as several.
 inline bool has_control_characters(std::string_view text) {
