@@ -73,7 +73,7 @@ int descriptor_of_credentials(const CredentialVariables& variables) {
 }
 
 void take_credentials() {
-  // Of a worker on a node, or one that a person starts, it is no file.
+  // A worker on a node, and one that a person starts, has no file there.
   struct stat status {};
   if (::fstat(STDIN_FILENO, &status) != 0 || !S_ISREG(status.st_mode)) return;
   std::string text;

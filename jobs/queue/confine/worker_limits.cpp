@@ -77,7 +77,7 @@ int refuse_calls(Network network) {
   return error != 0 ? -error : -seccomp_load(filter.get());
 }
 
-/// Of root's privileges those to use files remain: with the others, a worker of a service that runs
+/// Keeps of root's privileges those to use files: with the others, a worker of a service that runs
 /// as root reads the service's memory. 0, or an errno.
 int drop_capabilities() {
   constexpr std::uint32_t kKept =

@@ -57,7 +57,7 @@ TEST(Credentials, ChildrenGetSecretsOnStandardInputOnly) {
               HasSubstr("AWS_SECRET_ACCESS_KEY=" + std::string(kSecret) + "\n"));
 }
 
-TEST(Credentials, WhatIsTakenIsWhatWasGiven) {
+TEST(Credentials, AChildTakesCredentialsOnly) {
   EXPECT_EXIT(
       {
         const int memory = descriptor_of_credentials(
