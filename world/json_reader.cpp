@@ -8,7 +8,6 @@
 #include "base/json/deprecation.h"
 #include "base/json/json_describe.h"
 #include "base/json/json_integer.h"
-#include "base/text/control_characters.h"
 #include "base/text/suggest.h"
 
 namespace throng::world {
@@ -131,16 +130,9 @@ bool JsonValue::boolean() const {
 
 std::string JsonValue::text() const {
   if (value_ == nullptr) return {};
-  if (!value_->is_string()) {
-    reject("text");
-    return {};
-  }
-  const auto& text = value_->get_ref<const std::string&>();
-  // Descriptions may have several lines.
-  if (!pointer_.ends_with("/description") && has_control_characters(text)) {
-    reject("text without control characters");
-  }
-  return text;
+  if (value_->is_string()) return value_->get<std::string>();
+  reject("text");
+  return {};
 }
 
 std::string JsonValue::identifier() const {
