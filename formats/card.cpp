@@ -1,4 +1,5 @@
 #include "formats/card.h"
+#include "base/text/markup.h"
 #include "base/text/words.h"
 
 #include <fmt/format.h>
@@ -251,7 +252,8 @@ std::string DatasetCard::readme() const {
       "# {}\n\nA synthetic crowd dataset made by {}: {} with {} of people, of {}, in "
       "{}.\n`dataset.json` describes it, `manifest.json` lists every file "
       "with its SHA-256. `throng validate` checks it.\n\n",
-      info_.name, info_.generator, counted(images_, "image"), counted(people_, "annotation"),
+      escaped_markdown(info_.name), escaped_markdown(info_.generator), counted(images_, "image"),
+      counted(people_, "annotation"),
       counted(static_cast<std::int64_t>(characters_.size()), "distinct character"),
       info_.runs.size() == 1 ? "one run" : fmt::format("{} runs", info_.runs.size()));
   text += "| what | where |\n|---|---|\n";

@@ -4,6 +4,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,6 +24,7 @@
 #include "base/files/files.h"
 #include "base/files/writable.h"
 #include "jobs/bucket/access.h"
+#include "jobs/queue/confine/credentials.h"
 #include "jobs/queue/confine/file_fence.h"
 #include "jobs/queue/confine/machine_memory.h"
 #include "jobs/queue/confine/worker_limits.h"
@@ -194,6 +196,10 @@ void announce(const std::string& url, bool in_log) {
 }  // namespace
 
 int serve(const ServeOptions& options) {
+  // Files of users and their results are for nobody else on the machine, those of workers
+  // included.
+  constexpr mode_t kNotForOthers = 0077;
+  ::umask(kNotForOthers);
   check_folders(options);
   const fs::path database = options.database.empty() ? options.data : options.database;
   Keys keys(database);
@@ -201,6 +207,7 @@ int serve(const ServeOptions& options) {
   PublishTargets publish_to(options.publish_to);
   // Missing credentials shall not be found by the first job.
   if (publish_to.are_there()) static_cast<void>(bucket::read_access());
+  jobs::hide_environment();
   jobs::protect_this_process();
   const bool is_container = is_in_container();
   const bool logs_json = options.log_json || (is_container && ::isatty(STDOUT_FILENO) == 0);
@@ -213,6 +220,9 @@ int serve(const ServeOptions& options) {
   }
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  if (::geteuid() == 0) {
+    spdlog::warn("the service runs as root, and so do its workers: a user of its own is safer");
+  }
   set_environment(options.data, database);
   const std::optional<jobs::FolderLock> lock = lock_of_data(options);
   const std::unique_ptr<jobs::Executor> executor = made_executor(options);

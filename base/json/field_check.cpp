@@ -9,6 +9,7 @@
 #include "base/json/deprecation.h"
 #include "base/json/json_describe.h"
 #include "base/json/json_integer.h"
+#include "base/text/control_characters.h"
 #include "base/text/suggest.h"
 #include "base/text/utf8.h"
 
@@ -35,6 +36,8 @@ std::string range_text(const json& schema) {
               : " of at least " + limit("minimum");
 }
 
+bool is_one_line(const json& schema) { return schema.value(kOneLine, false); }
+
 std::string array_text(const json& schema) {
   const auto min_items = schema.value("minItems", 0);
   const auto max_items = schema.value("maxItems", 0);
@@ -60,10 +63,12 @@ std::string expectation(const json& schema) {
   if (type == "integer") return "an integer" + range_text(schema);
   if (type == "number") return "a number" + range_text(schema);
   if (type == "boolean") return "true or false";
-  return schema.contains("maxLength")
-             ? fmt::format("a text of {} to {} characters", schema.value("minLength", 0),
-                           schema["maxLength"].get<int>())
-             : "a text";
+  const std::string text =
+      schema.contains("maxLength")
+          ? fmt::format("a text of {} to {} characters", schema.value("minLength", 0),
+                        schema["maxLength"].get<int>())
+          : "a text";
+  return text + (is_one_line(schema) ? " without control characters" : "");
 }
 
 namespace {
@@ -102,6 +107,10 @@ bool keeps_range(const json& value, const ordered_json& rules) {
   }
   const bool is_text = value.is_string();
   if (!is_text && !value.is_array()) return true;
+  if (is_text && is_one_line(rules) &&
+      has_control_characters(value.get_ref<const std::string&>())) {
+    return false;
+  }
   const auto size = static_cast<double>(
       is_text ? character_count(value.get_ref<const std::string&>()) : value.size());
   return limit(is_text ? "minLength" : "minItems", [&](double low) { return size >= low; }) &&

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/json/json_integer.h"
+#include "base/text/control_characters.h"
 
 namespace throng::fields {
 
@@ -62,7 +63,8 @@ Values numbers_above(double low, double high) {
 Values booleans() { return {{{"type", "boolean"}}}; }
 
 Values texts(int min_length, int max_length) {
-  return {{{"type", "string"}, {"minLength", min_length}, {"maxLength", max_length}}};
+  return {
+      {{"type", "string"}, {"minLength", min_length}, {"maxLength", max_length}, {kOneLine, true}}};
 }
 
 Values identifiers() { return texts_like(kIdentifier, "1 to 32 letters, digits, '_' or '-'"); }

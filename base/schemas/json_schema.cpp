@@ -12,6 +12,7 @@
 #include "base/json/field_table.h"
 #include "base/json/json_describe.h"
 #include "base/json/json_integer.h"
+#include "base/text/control_characters.h"
 #include "base/text/suggest.h"
 
 namespace throng::schemas {
@@ -119,6 +120,23 @@ void add_field_problems(const json& object, const json& rules, const Rules& all,
   }
 }
 
+/// Adds texts of one line (kOneLine) that have control characters, at and below a value.
+void add_control_characters(const json& value, const json& rules, const Rules& all,
+                            const json::json_pointer& place, const std::string& source,
+                            std::vector<Problem>& problems) {
+  if (value.is_string() && rules.value(kOneLine, false) &&
+      has_control_characters(value.get_ref<const std::string&>())) {
+    problems.push_back({source, place.to_string(), describe(value), expected_at(rules)});
+  }
+  if (!value.is_structured()) return;
+  for (const auto& [key, member] : value.items()) {
+    const json* below = all.child(rules, key);
+    if (below == nullptr || !below->is_object()) continue;
+    const json::json_pointer pointer = value.is_array() ? place / std::stoul(key) : place / key;
+    add_control_characters(member, *below, all, pointer, source, problems);
+  }
+}
+
 /// valijson reports a bad value again at every object and array around it: which places are those
 /// that nothing bad lies in.
 std::map<Context, bool> innermost_places(const valijson::ValidationResults& results) {
@@ -167,12 +185,13 @@ std::vector<Problem> JsonSchema::problems(const json& value, const std::string& 
   valijson::ValidationResults results;
   json numbers = value;
   use_integers(numbers);
-  if (validator.validate(compiled_->schema, valijson::adapters::NlohmannJsonAdapter(numbers),
-                         &results)) {
-    return {};
-  }
   const Rules all(document_);
   std::vector<Problem> problems;
+  add_control_characters(value, all.at({}), all, json::json_pointer(), source, problems);
+  if (validator.validate(compiled_->schema, valijson::adapters::NlohmannJsonAdapter(numbers),
+                         &results)) {
+    return problems;
+  }
   for (const auto& [context, innermost] : innermost_places(results)) {
     const json::json_pointer place = pointer_to(context);
     const json& at_place = value.at(place);

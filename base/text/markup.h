@@ -1,4 +1,4 @@
-// Text in XML and HTML.
+// Text in XML, HTML and Markdown.
 #pragma once
 
 #include <string>
@@ -29,6 +29,17 @@ inline std::string escaped_markup(std::string_view text) {
       default:
         escaped += c;
     }
+  }
+  return escaped;
+}
+
+/// Escapes what Markdown and HTML in it take for more than text, for one line of Markdown.
+inline std::string escaped_markdown(std::string_view text) {
+  std::string escaped;
+  for (const char c : escaped_markup(text)) {
+    constexpr std::string_view kMarks = "\\`*_[]|~#!$";
+    if (kMarks.find(c) != std::string_view::npos) escaped += '\\';
+    escaped += c;
   }
   return escaped;
 }

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "cli/shell/commands.h"
@@ -73,6 +74,12 @@ void add_keys(CLI::App& app) {
       ->capture_default_str();
   add_data(create);
   create->callback([=] {
+    if (!server::is_key_name(*name)) {
+      throw InputError(Problem{
+          "throng keys create", "name",
+          nlohmann::json(*name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+          server::kKeyNameRule});
+    }
     fmt::print("{}\n", server::Keys(*data).create(*name, *server::scope_named(*scope), *max_jobs,
                                                   static_cast<std::int64_t>(*max_gib) << kGibShift,
                                                   *max_priority));

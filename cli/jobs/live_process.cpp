@@ -19,10 +19,14 @@ void add_live_process(CLI::App& app) {
   const auto min_free_mib = std::make_shared<std::optional<std::uint64_t>>();
   command->add_option("--record", *min_free_mib,
                       "Record the flight while the disk has this much free space, MiB");
-  command->callback([folder, min_free_mib] {
+  const auto max_bytes = std::make_shared<std::uint64_t>(0);
+  command->add_option("--max-bytes", *max_bytes, "End the recording at this size (0: unlimited)");
+  command->callback([folder, min_free_mib, max_bytes] {
     constexpr int kMibShift = 20;
     std::optional<live::RecordingOptions> record;
-    if (*min_free_mib) record = {.min_free_bytes = **min_free_mib << kMibShift};
+    if (*min_free_mib) {
+      record = {.min_free_bytes = **min_free_mib << kMibShift, .max_bytes = *max_bytes};
+    }
     std::exit(live::run_session(*folder, record));
   });
 }

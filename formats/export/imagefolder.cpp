@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "base/text/markup.h"
 #include "base/text/words.h"
 #include "formats/export/makers.h"
 #include "spec/annotate/license.h"
@@ -80,8 +81,8 @@ class ImageFolderExporter : public Exporter {
         "height in pixels; `objects.categories`:\n\n| number | class |\n|---|---|\n{}\n"
         "```python\nfrom datasets import load_dataset\n\n"
         "dataset = load_dataset(\"imagefolder\", data_dir=\".\")\n```\n",
-        license, json(info_.name).dump(), size_category(images_), info_.name, images_,
-        info_.generator, classes);
+        license, json(info_.name).dump(), size_category(images_), escaped_markdown(info_.name),
+        images_, escaped_markdown(info_.generator), classes);
   }
 
   /// The loader's own names of splits.

@@ -67,6 +67,21 @@ std::int64_t number_in(const XMLElement& element, const char* name) {
 
 }  // namespace
 
+void ListingBound::add_page(const Pairs& next) {
+  constexpr std::size_t kMaxBytes = std::size_t{256} << 20U;
+  constexpr int kMaxPages = 100'000;
+  if (bytes_ > kMaxBytes || ++pages_ > kMaxPages) {
+    throw EnvironmentError(
+        fmt::format("the object store's listing does not end: {} pages with {} bytes until now, "
+                    "expected at most {} pages and {} bytes",
+                    pages_, bytes_, kMaxPages, kMaxBytes));
+  }
+  if (!next.empty() && next == next_) {
+    throw EnvironmentError("the object store's listing goes on with the page that it just sent");
+  }
+  next_ = next;
+}
+
 Page<ListedObject> read_objects(const std::string& xml) {
   const Answer answer(xml, "ListBucketResult");
   Page<ListedObject> page;

@@ -36,6 +36,29 @@ struct Page {
   Pairs next;  ///< query parameters of the next page; empty on the last page
 };
 
+/// Bounds a listing over all its pages, because a store may list for ever. One of a dataset with a
+/// million objects has about 160 MB.
+class ListingBound {
+ public:
+  /// To be called with each page. Throws EnvironmentError for a listing of more than 256 MiB or
+  /// 100 000 pages, and for one that begins again.
+  template <typename Entry>
+  void add(const Page<Entry>& page) {
+    for (const Entry& entry : page.entries) bytes_ += sizeof(Entry) + text_bytes(entry);
+    add_page(page.next);
+  }
+
+ private:
+  static std::size_t text_bytes(const ListedObject& one) { return one.key.size() + one.tag.size(); }
+  static std::size_t text_bytes(const ListedUpload& one) { return one.key.size() + one.id.size(); }
+  static std::size_t text_bytes(const ListedPart& one) { return one.tag.size(); }
+  void add_page(const Pairs& next);
+
+  std::size_t bytes_ = 0;
+  int pages_ = 0;
+  Pairs next_;
+};
+
 /// Parse the answers to ListObjectsV2, ListMultipartUploads and ListParts. Throw EnvironmentError
 /// for other text.
 Page<ListedObject> read_objects(const std::string& xml);

@@ -20,6 +20,7 @@ std::vector<Entry> list_all(Transfers& store, const Request& first,
                             Page<Entry> (*read)(const std::string&)) {
   std::vector<Entry> all;
   Page<Entry> page;
+  ListingBound bound;
   do {
     Request request = first;
     request.query.insert(request.query.end(), page.next.begin(), page.next.end());
@@ -32,6 +33,7 @@ std::vector<Entry> list_all(Transfers& store, const Request& first,
       }
     };
     if (!store.send(std::move(request)).is_success()) return all;
+    bound.add(page);
     all.insert(all.end(), page.entries.begin(), page.entries.end());
   } while (!page.next.empty());
   return all;

@@ -23,8 +23,9 @@ constexpr double kLookEveryS = 1;
 
 }  // namespace
 
-FlightRecording::FlightRecording(fs::path file, std::uint64_t min_free_bytes)
-    : file_(std::move(file)), min_free_bytes_(min_free_bytes) {
+FlightRecording::FlightRecording(fs::path file, std::uint64_t min_free_bytes,
+                                 std::uint64_t max_bytes)
+    : file_(std::move(file)), min_free_bytes_(min_free_bytes), max_bytes_(max_bytes) {
   try {
     formats::McapOptions options;
     options.chunk_ns = kChunkNs;
@@ -70,6 +71,13 @@ void FlightRecording::look_at_disk(double time_s) {
   if (!recording_ || time_s < next_look_s_) return;
   next_look_s_ = time_s + kLookEveryS;
   std::error_code error;
+  if (const auto bytes = fs::file_size(file_, error);
+      max_bytes_ > 0 && !error && bytes >= max_bytes_) {
+    return close(
+        fmt::format("the key's share of the disk is full: the recording has {} bytes, and "
+                    "{} were left to it",
+                    bytes, max_bytes_));
+  }
   const fs::space_info space = fs::space(fs::absolute(file_).parent_path(), error);
   if (error || space.available >= min_free_bytes_) return;
   constexpr int kMibShift = 20;

@@ -18,8 +18,10 @@ namespace throng::live {
 /// Safe to use from many threads.
 class FlightRecording {
  public:
-  /// Begins the file. It ends when the disk has less free space than this.
-  FlightRecording(std::filesystem::path file, std::uint64_t min_free_bytes);
+  /// Begins the file. It ends when the disk has less free space than `min_free_bytes`, or the file
+  /// at least `max_bytes` (0: unlimited).
+  FlightRecording(std::filesystem::path file, std::uint64_t min_free_bytes,
+                  std::uint64_t max_bytes = 0);
   ~FlightRecording();
   FlightRecording(const FlightRecording&) = delete;
   FlightRecording& operator=(const FlightRecording&) = delete;
@@ -42,6 +44,7 @@ class FlightRecording {
 
   std::filesystem::path file_;
   std::uint64_t min_free_bytes_;
+  std::uint64_t max_bytes_;
   std::mutex mutex_;                                    ///< of all below
   std::unique_ptr<formats::ros::Recording> recording_;  ///< null if it has ended
   double complete_until_s_ = 0;                         ///< of one that has ended

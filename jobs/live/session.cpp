@@ -123,7 +123,7 @@ class Session {
 
  private:
   void begin_recording(const fs::path& folder, const RecordingOptions& options) {
-    recording_.emplace(folder / kRecordingFile, options.min_free_bytes);
+    recording_.emplace(folder / kRecordingFile, options.min_free_bytes, options.max_bytes);
     try {
       topics_.emplace(job_, flight_, statures_m(flight_.header(), population_, clothing(job_)),
                       [this](const ros::TopicMessage& message) { recording_->add(message); });

@@ -11,6 +11,7 @@ namespace throng::live {
 /// How a flight is recorded.
 struct RecordingOptions {
   std::uint64_t min_free_bytes = 0;  ///< the recording ends when the disk has less free space
+  std::uint64_t max_bytes = 0;       ///< the recording ends at this size; 0: unlimited
 };
 
 /// Flies the first run of the job in `folder`/job.json until it is stopped, its stdin ends or

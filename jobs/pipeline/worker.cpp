@@ -21,6 +21,7 @@
 #include "base/files/staging.h"
 #include "base/text/redact.h"
 #include "jobs/pipeline/pipeline.h"
+#include "jobs/queue/confine/credentials.h"
 #include "jobs/queue/confine/file_fence.h"
 #include "jobs/queue/workers/injected_faults.h"
 #include "jobs/queue/workers/worker_interface.h"
@@ -156,6 +157,7 @@ int run_worker(const std::filesystem::path& job_folder, const std::string& task_
                const OtherTasks& others) {
   die_with_supervisor();
   log_to_stderr();
+  if (task_name == kPublishName) take_credentials();
   const std::filesystem::path scenarios = world::scenarios_folder();
   // It opens no file of strangers: the dataset's are sent as they are.
   const Network network = task_name == kPublishName ? Network::allowed : Network::refused;

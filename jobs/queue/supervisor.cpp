@@ -372,6 +372,7 @@ std::vector<RunFailure> run_job(const JobFolder& folder, const ResolvedJob& job,
                                 const OnJobProgress& on_progress, std::stop_token stop,
                                 const Share& share) {
   const FolderLock lock(folder.path(), ".lock", "job's folder");
+  folder.remove_damaged();
   return Supervision(folder, job.spec(), executor, on_progress, std::move(stop), share).run();
 }
 

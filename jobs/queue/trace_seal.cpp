@@ -26,8 +26,8 @@ std::string sealed_hash(const fs::path& trace) {
 }
 
 void remove_if_damaged(const fs::path& trace) {
-  if (!fs::exists(trace) || !fs::exists(seal_file(trace))) return;
-  if (read_file(seal_file(trace)) == text_of_seal(trace)) return;
+  if (!fs::exists(trace)) return;
+  if (fs::exists(seal_file(trace)) && read_file(seal_file(trace)) == text_of_seal(trace)) return;
   fs::remove(trace);
   fs::remove(seal_file(trace));
 }

@@ -615,6 +615,13 @@ class Problem(TypedDict):
     errors: NotRequired[list[Mistake]]
 
 
+class KeyEnded(TypedDict):
+    """In the answer to its revocation: what the key had under way, which was cancelled."""
+
+    jobs: int
+    live_flights: int
+
+
 class Key(TypedDict):
     """Key of the service."""
 
@@ -631,6 +638,8 @@ class Key(TypedDict):
     revoked_at: str | None
     """Time when the key was revoked; null: it is valid."""
     links: dict[str, str]
+    ended: NotRequired[KeyEnded]
+    """In the answer to its revocation: what the key had under way, which was cancelled."""
     key: NotRequired[str]
     """The key itself, which callers send; only in the answer to its creation."""
 

@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/files/hash.h"
+#include "base/text/control_characters.h"
+#include "base/text/utf8.h"
 #include "server/access/private_database.h"
 #include "server/access/random_text.h"
 #include "server/catalog/unix_time.h"
@@ -112,6 +114,12 @@ std::optional<Scope> scope_named(std::string_view name) {
     if (to_string(scope) == name) return scope;
   }
   return std::nullopt;
+}
+
+bool is_key_name(std::string_view text) {
+  constexpr std::size_t kMaxLength = 100;
+  return !text.empty() && text.size() <= kMaxLength && is_utf8(text) &&
+         !has_control_characters(text);
 }
 
 bool is_own_key(std::string_view text) {

@@ -48,6 +48,11 @@ struct KeyRow {
   std::int64_t revoked_ms = 0;  ///< Unix time; 0: valid
 };
 
+/// The names that is_key_name() accepts, for messages.
+inline constexpr const char* kKeyNameRule = "a name of 1 to 100 bytes without control characters";
+/// Whether a text may name a key in lists.
+bool is_key_name(std::string_view text);
+
 /// Whether a text may be used as a key that was not made by create(): 32 to 128 characters of a
 /// bearer token (RFC 6750).
 bool is_own_key(std::string_view text);

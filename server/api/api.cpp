@@ -145,7 +145,6 @@ namespace {
 
 // The library answers 404 for a method that a path does not know.
 void write_library_error(const Request& request, Response& response, const HttpError& error) {
-  forget_ranges(request);
   if (error.status == 404 && error.detail.empty()) {
     std::string methods = allowed_methods(routes(), request.path);
     if (methods.empty()) methods = allowed_methods(studio_routes(), request.path);
@@ -344,16 +343,20 @@ bool makes_room(const Route& route) {
 Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options)
     : queue_(service.queue()),
       audit_(service.folders().data()),
+      revoked_(keys, service.queue(), service.live()),
       server_(with_limits(options, keys, sessions_, audit_, requests_), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [this, &service, &keys, &hooks, loopback](const Route& entry) {
     return [this, &service, &keys, &hooks, loopback, entry](const Request& request,
                                                             Response& response) {
-      forget_ranges(request);
       std::string key;
       std::shared_ptr<void> held;
       guarded(service.folders(), request, response, [&] {
-        const Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
+        Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
+        if (caller.max_bytes > 0) {  // what its live flights have written is not left to its jobs
+          caller.max_bytes = std::max<std::int64_t>(
+              1, caller.max_bytes - service.live().disk_bytes_of(caller.key_id));
+        }
         key = caller.key_id;
         // Those with a body were counted before it was read.
         const std::string length = request.get_header_value("Content-Length");
@@ -362,11 +365,12 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         // A full disk shall not keep anybody from making room.
         const std::shared_ptr<void> room = makes_room(entry) ? service.reserve().free() : nullptr;
         const jobs::TaskSender sender(key);
-        entry.handler({service.queue(), service.uploads(), service.calibrations(),
-                       service.studies(), service.housekeeping(), service.datasets(),
-                       service.reports(), service.confined(), service.folders(), hooks,
-                       service.live(), service.executor(), keys, sessions_, answers_, caller},
-                      request, response);
+        entry.handler(
+            {service.queue(), service.uploads(), service.calibrations(), service.studies(),
+             service.housekeeping(), service.datasets(), service.reports(), service.confined(),
+             service.folders(), hooks, service.live(), service.executor(), keys, sessions_,
+             revoked_, answers_, caller},
+            request, response);
       });
       if (held != nullptr) hold_until_sent(response, std::move(held));
       if (is_refusal(response.status)) {

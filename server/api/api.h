@@ -15,6 +15,7 @@
 #include "server/http/answer_budget.h"
 #include "server/http/http_server.h"
 #include "server/http/key_limit.h"
+#include "server/jobs/revoked_keys.h"
 #include "server/webhooks/webhook_sender.h"
 
 namespace throng::server {
@@ -45,6 +46,7 @@ class Api {
   Sessions sessions_;
   AuditLog audit_;
   AnswerBudget answers_;
+  RevokedKeys revoked_;
   KeyLimit requests_{kMaxRequestsOfKey};
   HttpServer server_;
 };

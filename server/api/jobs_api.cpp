@@ -185,14 +185,7 @@ void cancel_job(const RequestContext& context, const Request& request, Response&
 }
 
 void retry_job(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow own = find_own(context, request);
-  // An administrator may retry another's job beyond its key's limits.
-  const bool is_owner = own.owner == context.caller.key_id;
-  const auto row = context.queue.retry(
-      own.id, is_owner ? jobs::OwnerLimits{context.caller.max_active, context.caller.max_bytes}
-                       : jobs::OwnerLimits{});
-  if (!row) throw HttpError{404, "the job has been removed"};
-  write_job(context, response, 200, *row);
+  write_job(context, response, 200, retried(context, find_own(context, request)));
 }
 
 void clone_job(const RequestContext& context, const Request& request, Response& response) {

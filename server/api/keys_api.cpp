@@ -21,7 +21,6 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kKeyNoun = "key";
-constexpr std::size_t kMaxKeyNameLength = 100;
 
 json limit_json(std::int64_t limit) { return limit == 0 ? json(nullptr) : json(limit); }
 
@@ -58,11 +57,8 @@ std::int64_t integer_in(const json& body, const char* name, std::int64_t min_num
 std::string name_in(const json& body) {
   const json value = body.value("name", json(""));
   const std::string name = value.is_string() ? value.get<std::string>() : "";
-  const bool has_control =
-      std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
-  if (!name.empty() && name.size() <= kMaxKeyNameLength && !has_control) return name;
-  throw wrong_field(kKeyNoun, "/name", value.dump(),
-                    fmt::format("a name of at most {} bytes on one line", kMaxKeyNameLength));
+  if (is_key_name(name)) return name;
+  throw wrong_field(kKeyNoun, "/name", value.dump(), kKeyNameRule);
 }
 
 Scope scope_in(const json& body) {
@@ -107,7 +103,10 @@ void revoke_key(const RequestContext& context, const Request& request, Response&
     throw HttpError{409, "this key makes the request: revoke it with another one"};
   }
   if (!context.keys.revoke(key.id)) throw HttpError{409, "the key is revoked already"};
-  write_json(response, 200, key_json(find_key(context, key.id)));
+  const RevokedKeys::Ended ended = context.revoked.end_work();
+  json answer = key_json(find_key(context, key.id));
+  answer["ended"] = {{"jobs", ended.jobs}, {"live_flights", ended.live_flights}};
+  write_json(response, 200, answer);
 }
 
 }  // namespace throng::server

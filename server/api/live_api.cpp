@@ -102,6 +102,18 @@ bool is_to_be_recorded(const json& body) {
   throw wrong_field("request", "/record", record->dump().substr(0, 60), "true or false");
 }
 
+/// Bytes that the caller's key leaves to a recording; 0: unlimited. Throws QuotaError.
+std::int64_t left_to_recording(const RequestContext& context) {
+  const Caller& caller = context.caller;
+  if (caller.max_bytes <= 0) return 0;
+  const std::int64_t used = context.queue.bytes_of(caller.key_id);
+  if (used < caller.max_bytes) return caller.max_bytes - used;
+  throw QuotaError(fmt::format(
+      "your jobs take {} bytes of disk, and this key may have {} beside its live flights: remove "
+      "some, or fly without a recording",
+      used, caller.max_bytes));
+}
+
 }  // namespace
 
 void begin_live(const RequestContext& context, const Request& request, Response& response) {
@@ -109,7 +121,8 @@ void begin_live(const RequestContext& context, const Request& request, Response&
   const bool is_recorded = is_to_be_recorded(body);
   const jobs::ResolvedJob job = job_in(context, body);
   try {
-    const auto flight = context.live.begin(job, context.caller.key_id, is_recorded);
+    const std::int64_t max_bytes = is_recorded ? left_to_recording(context) : 0;
+    const auto flight = context.live.begin(job, context.caller.key_id, is_recorded, max_bytes);
     response.set_header("Location", "/v1/live/" + flight->id());
     write_json(response, 201, flight_json(*flight));
   } catch (const LiveFlightsFull& full) {

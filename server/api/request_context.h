@@ -13,6 +13,7 @@
 #include "server/jobs/housekeeping.h"
 #include "server/jobs/job_queue.h"
 #include "server/jobs/report_maker.h"
+#include "server/jobs/revoked_keys.h"
 #include "server/live/live_flights.h"
 #include "server/webhooks/webhook_sender.h"
 
@@ -33,6 +34,7 @@ struct RequestContext {
   const jobs::Executor& executor;
   Keys& keys;
   Sessions& sessions;
+  const RevokedKeys& revoked;
   AnswerBudget& answers;
   const Caller& caller;
 };

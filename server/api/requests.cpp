@@ -155,4 +155,20 @@ jobs::JobRow find_row(const RequestContext& context, const Request& request, job
   return std::move(*row);
 }
 
+jobs::JobRow retried(const RequestContext& context, const jobs::JobRow& own) {
+  for (const KeyRow& key : context.keys.list()) {
+    if (key.id != own.owner || key.revoked_ms == 0) continue;
+    throw HttpError{409,
+                    "the key of its owner is revoked, so that it would be cancelled: submit it "
+                    "again with another key"};
+  }
+  // An administrator may retry another's beyond its key's limits.
+  const bool is_owner = own.owner == context.caller.key_id;
+  const auto row = context.queue.retry(
+      own.id, is_owner ? jobs::OwnerLimits{context.caller.max_active, context.caller.max_bytes}
+                       : jobs::OwnerLimits{});
+  if (!row) throw HttpError{404, "it has been removed"};
+  return *row;
+}
+
 }  // namespace throng::server

@@ -64,6 +64,10 @@ void send_rows(const RequestContext& context, httplib::Response& response, const
 /// administrator.
 void require_own(const RequestContext& context, const jobs::JobRow& row);
 
+/// Queues the caller's job or study again. Throws HttpError 404 if it has been removed and 409 if
+/// its owner's key is revoked, and as JobQueue::retry().
+jobs::JobRow retried(const RequestContext& context, const jobs::JobRow& own);
+
 /// The job of this kind in the request's path. Throws as find_job().
 jobs::JobRow find_row(const RequestContext& context, const httplib::Request& request,
                       jobs::JobKind kind);

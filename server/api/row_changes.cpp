@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json/json_integer.h"
+#include "base/text/control_characters.h"
 #include "base/text/utf8.h"
 #include "jobs/queue/store/store.h"
 #include "server/api/requests.h"
@@ -31,8 +32,7 @@ HttpError wrong_change(const std::string& pointer, const std::string& found,
 void check_labels(const std::vector<std::string>& labels, const std::string& pointer) {
   const auto is_wrong = [](const std::string& label) {
     return label.empty() || label.size() > kMaxLabelLength || !is_utf8(label) ||
-           std::any_of(label.begin(), label.end(),
-                       [](unsigned char c) { return c < ' ' || c == 127; });
+           has_control_characters(label);
   };
   const auto invalid = std::find_if(labels.begin(), labels.end(), is_wrong);
   if (invalid == labels.end() && labels.size() <= kMaxLabels) return;

@@ -1,13 +1,24 @@
 #include "server/api/service.h"
 
+#include "base/files/files.h"
 #include "base/files/untrusted_folders.h"
 
 namespace throng::server {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-/// Workers, which may have been taken over by the input that they work on, write in these folders.
-std::filesystem::path with_distrusted_folders(const std::filesystem::path& data) {
+/// Makes the folders, which other users of the machine may not enter.
+fs::path with_private_folders(const fs::path& data) {
+  for (const char* kind : {"jobs", "calibrations", "studies", "live", "check", "scenarios",
+                           "uploads", "quarantine", "trash"}) {
+    const fs::path folder = data / kind;
+    if (std::string_view(kind) == "jobs") make_folders(folder);
+    std::error_code ignored;  // of a folder that is not there, or another user's
+    if (fs::is_directory(folder, ignored)) fs::permissions(folder, fs::perms::owner_all, ignored);
+  }
+  // Workers, which may have been taken over by the input that they work on, write in these.
   for (const char* kind : {"jobs", "calibrations", "studies", "live", "check"}) {
     distrust_folders_in(data / kind);
   }
@@ -18,7 +29,8 @@ std::filesystem::path with_distrusted_folders(const std::filesystem::path& data)
 
 Service::Service(const ServiceOptions& options, jobs::Executor& executor)
     : executor_(executor),
-      folders_(with_distrusted_folders(options.data), options.scenarios),
+      folders_(with_private_folders(options.data), options.scenarios),
+      lock_(folders_.data() / "jobs", "service's folder"),
       publish_to_(options.publish_to),
       reserve_(options.database.empty() ? options.data : options.database),
       store_(options.database.empty() ? options.data : options.database, options.clock,

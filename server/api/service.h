@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "jobs/queue/confine/confined_task.h"
+#include "jobs/queue/dataset/folder_lock.h"
 #include "jobs/queue/store/store.h"
 #include "jobs/queue/workers/executor.h"
 #include "server/catalog/calibrations.h"
@@ -64,6 +65,7 @@ class Service {
   const jobs::Executor& executor_;
   // Each member uses only members above it.
   ServiceFolders folders_;
+  jobs::FolderLock lock_;  ///< of the jobs: the store's file can be removed while the service runs
   PublishTargets publish_to_;
   DiskReserve reserve_;
   jobs::Store store_;

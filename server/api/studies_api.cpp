@@ -132,13 +132,8 @@ void cancel_study(const RequestContext& context, const Request& request, Respons
 }
 
 void retry_study(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow own = find_own_study(context, request);
-  const bool is_owner = own.owner == context.caller.key_id;
-  const auto row = context.queue.retry(
-      own.id, is_owner ? jobs::OwnerLimits{context.caller.max_active, context.caller.max_bytes}
-                       : jobs::OwnerLimits{});
-  if (!row) throw HttpError{404, "the study has been removed"};
-  write_json(response, 200, study_json(*row, context.housekeeping.retention()));
+  const jobs::JobRow row = retried(context, find_own_study(context, request));
+  write_json(response, 200, study_json(row, context.housekeeping.retention()));
 }
 
 void remove_study(const RequestContext& context, const Request& request, Response& response) {

@@ -10,7 +10,9 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/json/json_describe.h"
 #include "base/json/json_text.h"
+#include "base/text/control_characters.h"
 #include "jobs/queue/store/job_id.h"
 #include "server/catalog/api_json.h"
 #include "server/catalog/service_errors.h"
@@ -36,6 +38,10 @@ JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upl
   const json request = parse_json(request_json, "", kRequestJsonLimits);
   if (!request.is_object()) {
     throw InputError(Problem{"", "", "no JSON object", "a request: see docs/calibration.md"});
+  }
+  if (const json name = request.value("name", json(""));
+      !name.is_string() || has_control_characters(name.get_ref<const std::string&>())) {
+    throw InputError(Problem{"", "/name", describe(name), "a text without control characters"});
   }
   StagingFolder staging(folders_.calibrations() / "next");
   for (const Upload& file : files) {

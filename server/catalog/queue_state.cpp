@@ -103,10 +103,17 @@ void QueueState::set_waiting(const std::string& id, const std::string& reason) {
   ++revision_;
 }
 
+void QueueState::stop_work_on(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = active_.find(id); found != active_.end()) {
+    found->second.stop.request_stop();
+  }
+}
+
 void QueueState::end_work_on(const std::string& id) {
+  stop_work_on(id);
   std::unique_lock lock(mutex_);
   const auto is_at_work = [&] { return active_.contains(id); };
-  if (is_at_work()) active_.at(id).stop.request_stop();
   if (!changed_.wait_for(lock, kMaxEnd, [&] { return !is_at_work(); })) {
     throw EnvironmentError("the job's workers do not end; the job is cancelled, try again later");
   }

@@ -54,6 +54,8 @@ class QueueState {
   void set_priority(const std::string& id, int priority);
   /// Sets the reason why no task of an active job runs; "" if one does.
   void set_waiting(const std::string& id, const std::string& reason);
+  /// Requests a stop of a job.
+  void stop_work_on(const std::string& id);
   /// Requests a stop of a job and blocks until it is no longer active. Throws EnvironmentError if
   /// that takes too long.
   void end_work_on(const std::string& id);

@@ -13,6 +13,7 @@
 #include "server/http/byte_range.h"
 #include "server/http/http.h"
 #include "server/http/http_error.h"
+#include "server/http/request_head.h"
 
 namespace throng::server {
 
@@ -45,14 +46,7 @@ void answer_with(const Request& request, Response& response,
       });
 }
 
-httplib::Ranges& requested_ranges(const Request& request) {
-  // The library owns the request and made it non-const.
-  return const_cast<Request&>(request).ranges;  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-}
-
 }  // namespace
-
-void forget_ranges(const Request& request) { requested_ranges(request).clear(); }
 
 bool is_current(const Request& request, Response& response, const std::string& etag) {
   const std::string known = request.get_header_value("If-None-Match");
@@ -68,7 +62,6 @@ bool is_current(const Request& request, Response& response, const std::string& e
     is_known = tag == etag;
   }
   if (!is_known) return false;
-  forget_ranges(request);
   response.set_header("ETag", etag);
   response.status = 304;
   return true;
@@ -76,15 +69,16 @@ bool is_current(const Request& request, Response& response, const std::string& e
 
 void settle_range(const Request& request, Response& response, const std::string& etag,
                   std::int64_t size) {
-  const RangeAnswer answer = range_answer(request.get_header_value("Range"),
+  const RangeAnswer answer = range_answer(request.get_header_value(kRangeField),
                                           request.get_header_value("If-Range"), etag, size);
-  forget_ranges(request);
   if (answer.kind == RangeAnswer::Kind::unsatisfiable) {
     response.set_header("Content-Range", fmt::format("bytes */{}", size));
     throw HttpError{416, fmt::format("there are {} bytes", size)};
   }
   if (answer.kind == RangeAnswer::Kind::part) {
-    requested_ranges(request).emplace_back(answer.part.first, answer.part.last);
+    // The library owns the request, made it non-const, and sends the part.
+    const_cast<Request&>(request)  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+        .ranges.emplace_back(answer.part.first, answer.part.last);
   }
   response.set_header("ETag", etag);
   response.set_header("Accept-Ranges", "bytes");

@@ -9,17 +9,12 @@
 
 namespace throng::server {
 
-/// Makes the library send the whole body, whatever range was requested; it would otherwise cut any
-/// body, even that of an error.
-void forget_ranges(const httplib::Request& request);
-
 /// Whether the client has the content with this ETag (If-None-Match: a list of ETags, or *); the
 /// response is then 304. `etag` includes its quotes.
 bool is_current(const httplib::Request& request, httplib::Response& response,
                 const std::string& etag);
 
-/// Replaces the ranges of the request by the one that the client gets (range_answer()), because the
-/// library accepts several ranges and ranges past the end and ignores If-Range. Sets ETag and
+/// Makes the library send the range that the client gets (range_answer()). Sets ETag and
 /// Accept-Ranges. `etag` includes its quotes. Throws HttpError 416.
 void settle_range(const httplib::Request& request, httplib::Response& response,
                   const std::string& etag, std::int64_t size);

@@ -266,28 +266,13 @@ void read_persistence(const std::vector<HeaderField>& fields, RequestHead& head)
   head.keeps_connection = !is_close && (is_keep_alive || !head.is_http_1_0);
 }
 
-// The library refuses what it does not understand; RFC 9110 (14.2) has it ignored.
-bool is_understood_range(std::string_view value) {
-  constexpr std::string_view kUnit = "bytes=";
-  if (!value.starts_with(kUnit)) return false;
-  const auto is_part_of_range = [](char c) {
-    return ('0' <= c && c <= '9') || c == '-' || c == ',' || c == ' ';
-  };
-  const std::vector<std::string_view> ranges = split_list(value.substr(kUnit.size()));
-  return !ranges.empty() && std::all_of(ranges.begin(), ranges.end(), [&](std::string_view range) {
-    return std::count(range.begin(), range.end(), '-') == 1 && range.size() > 1 &&
-           std::all_of(range.begin(), range.end(), is_part_of_range) &&
-           range.find(' ') == range.npos;
-  });
-}
-
-// Hop-by-hop fields, names that the library reserves for itself, and ranges that it would refuse.
+// Hop-by-hop fields, and names that the library and library_text() reserve.
 bool is_for_library(const HeaderField& field) {
   constexpr std::array kDropped = {
-      "Connection",        "Keep-Alive",  "Proxy-Connection", "TE",         "Trailer",
-      "Transfer-Encoding", "Upgrade",     "HTTP2-Settings",   "Expect",     "Content-Length",
-      "Content-Encoding",  "REMOTE_ADDR", "REMOTE_PORT",      "LOCAL_ADDR", "LOCAL_PORT"};
-  if (are_equal(field.name, "Range") && !is_understood_range(field.value)) return false;
+      "Connection",  "Keep-Alive",        "Proxy-Connection", "TE",
+      "Trailer",     "Transfer-Encoding", "Upgrade",          "HTTP2-Settings",
+      "Expect",      "Content-Length",    "Content-Encoding", "REMOTE_ADDR",
+      "REMOTE_PORT", "LOCAL_ADDR",        "LOCAL_PORT",       kRangeField};
   return std::none_of(kDropped.begin(), kDropped.end(),
                       [&](const char* name) { return are_equal(field.name, name); });
 }
@@ -378,7 +363,7 @@ std::string library_text(const RequestHead& head) {
   text += head.is_http_1_0 ? " HTTP/1.0\r\n" : " HTTP/1.1\r\n";
   for (const HeaderField& field : head.fields) {
     if (are_equal(field.name, kAcceptEncoding)) continue;
-    text += field.name;
+    text += are_equal(field.name, "Range") ? kRangeField : field.name;
     text += ": ";
     // The library decodes percent escapes in values, which nobody else does.
     for (const char c : field.value) {

@@ -60,8 +60,12 @@ HeadError check_header_field(std::string_view line);
 /// Checks the first bytes of an incomplete head; status 0 if they have no error.
 HeadError check_head_start(std::string_view bytes);
 
+/// The field in which library_text() has the value of Range. The library would answer 416 to ranges
+/// that RFC 9110 (14.2) has ignored, for example "bytes=5-2", and cut any body, even of an error.
+inline constexpr const char* kRangeField = "Requested-Range";
+
 /// The head as a canonical text from which cpp-httplib 0.11 parses exactly the members' values.
-/// Accept-Encoding is reduced to "gzip" if that is accepted.
+/// Accept-Encoding is reduced to "gzip" if that is accepted; Range becomes kRangeField.
 std::string library_text(const RequestHead& head);
 
 }  // namespace throng::server

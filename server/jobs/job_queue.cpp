@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -181,6 +182,30 @@ std::optional<JobRow> JobQueue::cancel(const std::string& id) {
     return get(id);
   }
   return std::nullopt;
+}
+
+int JobQueue::cancel_all_of(const std::set<std::string>& owners) {
+  int cancelled = 0;
+  for (const jobs::JobKind kind :
+       {jobs::JobKind::dataset, jobs::JobKind::calibration, jobs::JobKind::study}) {
+    const jobs::JobFilter active{.kind = kind,
+                                 .states = {jobs::JobState::queued, jobs::JobState::running},
+                                 .limit = std::numeric_limits<int>::max(),
+                                 .with_spec = false};
+    for (const JobRow& listed : store_.list(active)) {
+      if (!owners.contains(listed.owner)) continue;
+      // The state may change between reading and cancelling; then look again.
+      std::optional<JobRow> row = listed;
+      while (row && is_active(row->state) && !state_.apply(*row, JobEvent::cancel)) {
+        row = store_.get(listed.id);
+      }
+      if (!row || !is_active(row->state)) continue;
+      state_.stop_work_on(listed.id);
+      spdlog::info("job {} cancelled: its key was revoked", listed.id);
+      ++cancelled;
+    }
+  }
+  return cancelled;
 }
 
 std::optional<JobRow> JobQueue::retry(const std::string& id, const jobs::OwnerLimits& limits) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -81,11 +82,17 @@ class JobQueue {
   /// Throws EnvironmentError if the store's files were removed or replaced (Store::check_files()).
   void check_store() const { store_.check_files(); }
 
+  /// Disk usage of an owner's jobs (Store::bytes_of()).
+  std::int64_t bytes_of(const std::string& owner) const { return store_.bytes_of(owner); }
+
   /// Changes the properties of a job in any state; std::nullopt if there is none.
   std::optional<jobs::JobRow> change(const std::string& id, const jobs::JobChange& change);
   /// Cancels an active job and blocks until its work has stopped; published output is kept. Returns
   /// std::nullopt if there is no such job. Throws ConflictError if it has ended.
   std::optional<jobs::JobRow> cancel(const std::string& id);
+  /// Cancels all active jobs, calibrations and studies of these owners, without waiting for their
+  /// work to stop. Returns their number.
+  int cancel_all_of(const std::set<std::string>& owners);
   /// Queues a partial, failed or cancelled job again; published output is kept. Returns
   /// std::nullopt if there is no such job. Throws ConflictError in any other state, and QuotaError
   /// if the owner has reached one of `limits`.

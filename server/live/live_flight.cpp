@@ -100,7 +100,8 @@ void LiveFlight::run() {
     std::vector<std::string> command = spec_.command;
     command.push_back(folder_.path().string());
     if (spec_.is_recorded) {
-      command.insert(command.end(), {"--record", std::to_string(spec_.min_free_mib)});
+      command.insert(command.end(), {"--record", std::to_string(spec_.min_free_mib), "--max-bytes",
+                                     std::to_string(spec_.max_recorded_bytes)});
     }
     jobs::ChildProcess process(command, variables, folder_.path() / "log.txt", input_read_);
     ::close(std::exchange(input_read_, -1));

@@ -12,6 +12,7 @@
 #include "jobs/queue/confine/machine_memory.h"
 #include "server/access/random_text.h"
 #include "server/catalog/api_json.h"
+#include "server/catalog/data_folder.h"
 #include "spec/estimates/task_memory.h"
 #include "spec/job/spec.h"
 
@@ -78,7 +79,8 @@ void LiveFlights::require_room(const std::string& owner, std::int64_t memory_mib
 }
 
 std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
-                                               const std::string& owner, bool is_recorded) {
+                                               const std::string& owner, bool is_recorded,
+                                               std::int64_t max_recorded_bytes) {
   LiveFlightSpec spec;
   spec.id = "l" + random_text(kFlightIdLength);
   spec.owner = owner;
@@ -89,6 +91,7 @@ std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
   spec.job_json = dump_text(to_json(job.spec()));
   spec.memory_mib = flight_memory_mib(job);
   spec.is_recorded = is_recorded;
+  spec.max_recorded_bytes = max_recorded_bytes;
   spec.min_free_mib = limits_.min_free_mib;
   spec.folder = folder_;
   spec.command = limits_.command;
@@ -115,6 +118,14 @@ std::vector<std::shared_ptr<LiveFlight>> LiveFlights::all() const {
   return all;
 }
 
+std::int64_t LiveFlights::disk_bytes_of(const std::string& owner) const {
+  std::int64_t bytes = 0;
+  for (const std::shared_ptr<LiveFlight>& flight : all()) {
+    if (flight->owner() == owner) bytes += measure_disk_bytes(flight->recording().parent_path());
+  }
+  return bytes;
+}
+
 bool LiveFlights::remove(const std::string& id) {
   std::shared_ptr<LiveFlight> removed;
   {
@@ -127,6 +138,14 @@ bool LiveFlights::remove(const std::string& id) {
   removed->end();
   spdlog::info("live flight {} ended", id);
   return true;
+}
+
+int LiveFlights::remove_all_of(const std::set<std::string>& owners) {
+  int removed = 0;
+  for (const std::shared_ptr<LiveFlight>& flight : all()) {
+    if (owners.contains(flight->owner()) && remove(flight->id())) ++removed;
+  }
+  return removed;
 }
 
 void LiveFlights::end_unseen() {

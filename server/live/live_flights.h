@@ -3,10 +3,12 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,10 +50,13 @@ class LiveFlights {
   LiveFlights(const LiveFlights&) = delete;
   LiveFlights& operator=(const LiveFlights&) = delete;
 
-  /// Starts a flight, which records itself if asked to. Throws LiveFlightsFull and
-  /// EnvironmentError.
+  /// Starts a flight, which records itself if asked to: at most `max_recorded_bytes`, unless that
+  /// is 0. Throws LiveFlightsFull and EnvironmentError.
   std::shared_ptr<LiveFlight> begin(const jobs::ResolvedJob& job, const std::string& owner,
-                                    bool is_recorded = false);
+                                    bool is_recorded = false, std::int64_t max_recorded_bytes = 0);
+  /// Disk usage of an owner's flights, which counts for their quota as long as the flights are
+  /// kept.
+  std::int64_t disk_bytes_of(const std::string& owner) const;
   /// The flight with this id; null if there is none.
   std::shared_ptr<LiveFlight> find(const std::string& id) const;
   std::vector<std::shared_ptr<LiveFlight>> all() const;
@@ -60,6 +65,8 @@ class LiveFlights {
   std::shared_ptr<void> begin_view(const std::string& key) { return viewers_.hold(key); }
   /// Ends and removes a flight; returns false if there is none.
   bool remove(const std::string& id);
+  /// Ends and removes all flights of these owners. Returns their number.
+  int remove_all_of(const std::set<std::string>& owners);
 
  private:
   void require_room(const std::string& owner, std::int64_t memory_mib) const;

@@ -449,6 +449,11 @@ class Front(unittest.TestCase):
         answer = subprocess.run(plain, check=True, capture_output=True, text=True).stdout.lower()
         self.assertIn(" 308 ", answer.splitlines()[0])
         self.assertNotIn("strict-transport-security", answer)
+        self.assertIn("location: https://127.0.0.1/x", answer)
+        for host in ["evil.example", "localhost.evil.example", ""]:
+            strange = [*plain, "-H", f"Host: {host}" if host else "Host;"]
+            answer = subprocess.run(strange, check=True, capture_output=True, text=True).stdout.lower()
+            self.assertNotIn("location", answer, host)
 
 
 if __name__ == "__main__":

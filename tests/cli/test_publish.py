@@ -3,6 +3,7 @@ and of the store, never over what others have put there; and credentials are see
 
 usage: test_publish.py THRONG [unittest's arguments]
 """
+import contextlib
 import hashlib
 import json
 import os
@@ -250,6 +251,20 @@ class Publishing(unittest.TestCase):
         self.assertIn("the listing shows 0 of 4 objects", done.stderr)
         self.assertNotIn("set/manifest.json", self.store.objects())
 
+    def test_a_listing_without_an_end_is_refused(self):
+        dataset = write_dataset(self.folder / "dataset", small=3)
+        original = self.store.own_answer
+        page = b"<ListBucketResult><IsTruncated>true</IsTruncated>%s</ListBucketResult>"
+
+        def own_answer(request):
+            if "list-type" in request["query"]:
+                return 200, page % b"<NextContinuationToken>same</NextContinuationToken>", ()
+            return original(request)
+
+        self.store.own_answer = own_answer
+        done = self.throng("publish", dataset, "s3://data/set", code=3)
+        self.assertIn("goes on with the page that it just sent", done.stderr)
+
     def test_nothing_of_others_is_overwritten(self):
         first = write_dataset(self.folder / "first", seed=1)
         self.throng("publish", first, "s3://data/set")
@@ -356,6 +371,15 @@ class Publishing(unittest.TestCase):
         data = self.folder / "data"
         options = ["--publish-to", "s3://data/team/a", "--publish-to", "s3://elsewhere"]
         process, port = start_service(THRONG, data, *options, env=self.environment, stdout=log, stderr=log)
+        environments = []
+
+        def look_at_environments(_request):
+            for children in pathlib.Path(f"/proc/{process.pid}/task").glob("*/children"):
+                for pid in [process.pid, *children.read_text().split()]:
+                    with contextlib.suppress(OSError):
+                        environments.append(pathlib.Path(f"/proc/{pid}/environ").read_text(errors="replace"))
+
+        self.store.fault = look_at_environments
         try:
             for path in ("/v1/jobs", "/v1/jobs?dry_run"):
                 for address in ("s3://data/team/ab", "s3://data/team", "s3://other/team/a"):
@@ -405,7 +429,10 @@ class Publishing(unittest.TestCase):
             process.send_signal(signal.SIGTERM)
             process.wait(300)
         log.seek(0)
+        if os.geteuid() == 0:
+            self.assertTrue(any("THRONG_SUPERVISOR_PID" in text for text in environments), "that of a worker")
         for text in (
+            *environments,
             log.read().decode(),
             *answers,
             *(part.decode(errors="replace") for part in files_of(data).values()),

@@ -28,6 +28,7 @@ using hand_made::Export;
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 TEST(HandMadeVoc, HasCornersFromOneAndFlags) {
   Export out;
@@ -294,6 +295,20 @@ TEST(HandMadeCard, CountsImagesAndPeople) {
   EXPECT_THAT(readme, HasSubstr("3 runs"));
   EXPECT_THAT(readme, HasSubstr("| format mot | formats/mot/ |"));
   EXPECT_THAT(readme, Not(HasSubstr("numpy.load"))) << "it has no density";
+}
+
+TEST(HandMadeCard, ANameIsTextAndNothingElse) {
+  Export out;
+  out.dataset().name = "a<script>alert(1)</script> [b](javascript:c) `d` *e* | f & \\<g";
+  DatasetCard card(
+      out.dataset(),
+      {{"schema_version", 1}, {"job", {{"outputs", json::object()}}}, {"runs", json::array()}},
+      Output(out.root() / "out"));
+  card.add(hand_made::image());
+  card.finish();
+  EXPECT_THAT(out.text("README.md"),
+              StartsWith("# a&lt;script&gt;alert(1)&lt;/script&gt; \\[b\\](javascript:c) \\`d\\` "
+                         "\\*e\\* \\| f &amp; \\\\&lt;g\n"));
 }
 
 TEST(HandMadeCard, ClassesLightByTheSun) {

@@ -45,7 +45,8 @@ class ServiceFixture : public ::testing::Test {
     return {.data = data.path(),
             .scenarios = scenarios.path(),
             .confined = test_checks(),
-            .max_active_jobs = 1};
+            .max_active_jobs = 1,
+            .live = {.command = {"/bin/true"}}};
   }
 
   /// Writes the report of the job in a folder to a file.

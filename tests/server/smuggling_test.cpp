@@ -127,7 +127,9 @@ TEST_F(Smuggling, ConnectionsOfRefusedRequestsAreClosed) {
   EXPECT_EQ(count_occurrences(answers, "HTTP/1."), 2U) << answers;
   EXPECT_THAT(answers, StartsWith("HTTP/1.1 400 "));
   EXPECT_THAT(answers, HasSubstr("HTTP/1.1 200 OK"));
-  const std::string ranges = "Range: bytes=" + std::string(6000, '9') + "-\r\n";
+  // A range that the library would refuse in the middle is ignored, and the body read to its end.
+  const std::string ranges =
+      "Connection: close\r\nRange: bytes=" + std::string(6000, '9') + "-\r\n";
   EXPECT_EQ(count_occurrences(
                 raw(fmt::format("POST /v1/jobs HTTP/1.1\r\n{}{}Content-Length: {}\r\n\r\n{}", kHost,
                                 ranges, inner().size(), inner())),

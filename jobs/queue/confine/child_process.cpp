@@ -6,15 +6,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files/untrusted_folders.h"
 #include "base/resource_exhaustion.h"
+#include "jobs/queue/confine/credentials.h"
 #include "jobs/queue/confine/file_fence.h"
 
 namespace throng::jobs {
@@ -42,8 +44,6 @@ class SpawnSettings {
   posix_spawnattr_t attributes;
 };
 
-constexpr std::string_view kCredentialPrefix = "AWS_";
-
 /// Files that credentials are read from, with colons between them as in $PATH.
 std::string credential_files() {
   std::string files;
@@ -55,6 +55,16 @@ std::string credential_files() {
   return files;
 }
 
+/// Removes the credentials from the variables; -1 if there are none.
+int taken_credentials(ChildProcess::Variables& variables) {
+  const auto end = std::stable_partition(
+      variables.begin(), variables.end(),
+      [](const auto& variable) { return !is_secret_variable(variable.first); });
+  const ChildProcess::Variables credentials(end, variables.end());
+  variables.erase(end, variables.end());
+  return credentials.empty() ? -1 : descriptor_of_credentials(credentials);
+}
+
 std::vector<std::string> changed_environment(ChildProcess::Variables variables) {
   if (const std::string files = credential_files(); !files.empty()) {
     variables.emplace_back(kPrivateCredentialsVariable, files);
@@ -62,7 +72,7 @@ std::vector<std::string> changed_environment(ChildProcess::Variables variables) 
   std::vector<std::string> environment;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string text = *entry;
-    bool replaced = text.starts_with(kCredentialPrefix);
+    bool replaced = is_secret_variable(text.substr(0, text.find('=')));
     for (const auto& [name, value] : variables) replaced |= text.starts_with(name + "=");
     if (!replaced) environment.push_back(text);
   }
@@ -82,18 +92,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 }  // namespace
 
-ChildProcess::Variables credential_variables() {
-  ChildProcess::Variables variables;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view text = *entry;
-    const std::size_t end = text.find('=');
-    if (!text.starts_with(kCredentialPrefix) || end == std::string_view::npos) continue;
-    variables.emplace_back(text.substr(0, end), text.substr(end + 1));
-  }
-  return variables;
-}
-
-ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variables& variables,
+ChildProcess::ChildProcess(const std::vector<std::string>& command, Variables variables,
                            const std::filesystem::path& log, int input) {
   std::filesystem::create_directories(log.parent_path());
   const int log_file = open_for_appending(log);
@@ -107,6 +106,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variab
   const auto [read_end, write_end] = pipe_ends;
   ::fcntl(read_end, F_SETFL, O_NONBLOCK);
 
+  const int credentials = taken_credentials(variables);
+  if (credentials >= 0) input = credentials;
   SpawnSettings settings;
   if (input < 0) {
     posix_spawn_file_actions_addopen(&settings.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -129,12 +130,13 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variab
                            POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
   std::vector<std::string> arguments = command;
-  std::vector<std::string> environment = changed_environment(variables);
+  std::vector<std::string> environment = changed_environment(std::move(variables));
   const int error =
       ::posix_spawnp(&pid_, arguments[0].c_str(), &settings.actions, &settings.attributes,
                      pointers_to(arguments).data(), pointers_to(environment).data());
   ::close(write_end);
   ::close(log_file);
+  if (credentials >= 0) ::close(credentials);
   if (error != 0) {
     ::close(read_end);
     throw_environment_error(fmt::format("cannot start {}", command[0]), error);

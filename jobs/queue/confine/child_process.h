@@ -16,21 +16,17 @@ struct ExitStatus {
   int signal = 0;  ///< 0: none
 };
 
-/// The environment variables of this process with credentials of object stores ($AWS_...), to be
-/// passed only to the child that publishes.
-std::vector<std::pair<std::string, std::string>> credential_variables();
-
 /// Owns one child process. Use from one thread at a time.
 class ChildProcess {
  public:
   using Variables = std::vector<std::pair<std::string, std::string>>;
 
   /// Starts command[0] (searched in PATH) with this process's environment changed by `variables`.
-  /// Credentials of object stores ($AWS_...) are removed from it unless `variables` contains them;
-  /// $THRONG_PRIVATE_CREDENTIALS names their files (jobs/queue/confine/file_fence.h). stderr is
-  /// appended to the file `log`; stdin is the descriptor `input`, or empty for -1. Throws
-  /// EnvironmentError.
-  ChildProcess(const std::vector<std::string>& command, const Variables& variables,
+  /// Secrets are removed from it (is_secret_variable()); those that `variables` contains are its
+  /// stdin, which take_credentials() reads. $THRONG_PRIVATE_CREDENTIALS names their files
+  /// (jobs/queue/confine/file_fence.h). stderr is appended to the file `log`; stdin is the
+  /// descriptor `input`, or empty for -1. Throws EnvironmentError.
+  ChildProcess(const std::vector<std::string>& command, Variables variables,
                const std::filesystem::path& log, int input = -1);
   /// Kills the process group if it still runs.
   ~ChildProcess();

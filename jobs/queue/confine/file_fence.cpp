@@ -156,7 +156,6 @@ void allow_devices(Ruleset& rules) {
   for (const auto& entry : fs::directory_iterator("/dev", error)) {
     if (entry.path().filename().string().starts_with("nvidia")) rules.allow(entry.path(), kUse);
   }
-  rules.allow("/dev/shm", kRead | kWrite | kTruncate);
 }
 
 }  // namespace

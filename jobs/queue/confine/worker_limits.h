@@ -21,9 +21,10 @@ void protect_this_process();
 enum class Network { refused, allowed };
 
 /// Restricts this process and its future children: no network unless allowed, no tracing of other
-/// processes, no core dumps, no further privileges, first to be killed when memory runs out, and no
-/// more memory than $THRONG_WORKER_MEMORY_MIB and $THRONG_WORKER_DATA_MIB. Returns the restrictions
-/// that the kernel refuses, for people; "" if it accepts all.
+/// processes, no core dumps, no changes of modes, owners and attributes of files, of root's
+/// privileges those to use files only, no further ones, first to be killed when memory runs out,
+/// and no more memory than $THRONG_WORKER_MEMORY_MIB and $THRONG_WORKER_DATA_MIB. Returns the
+/// restrictions that the kernel refuses, for people; "" if it accepts all.
 std::string limit_this_process(Network network = Network::refused);
 
 /// The number of processes that the kernel has killed since boot because memory ran out; 0 if

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "jobs/queue/dataset/manifest.h"
 #include "jobs/queue/dataset/publication.h"
 #include "spec/calibration/request_files.h"
 #include "spec/job/spec.h"
@@ -48,6 +49,16 @@ void keep_recording(const RecordedSpec& recorded, const fs::path& job_folder) {
   if (!fs::exists(kept)) write_file_atomically(kept, read_file(recorded.file));
 }
 
+/// A task's output that is not what the task publishes, which is never an empty folder.
+bool is_damaged_output(const fs::path& path) {
+  std::error_code error;
+  const std::string name = path.filename().string();
+  if (name == "metrics" || name.starts_with("shard")) {
+    return !fs::is_directory(path, error) || fs::is_empty(path, error);
+  }
+  return !fs::is_regular_file(path, error);
+}
+
 }  // namespace
 
 JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
@@ -77,7 +88,10 @@ JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
 
 JobFolder JobFolder::restore(fs::path path, const ResolvedJob& resolved) {
   JobFolder folder(std::move(path));
+  if (!fs::is_directory(folder.path())) fs::remove(folder.path());
+  folder.remove_damaged();
   const fs::path file = folder.job_file();
+  if (!fs::is_regular_file(file)) fs::remove_all(file);
   if (!fs::exists(file) || !is_same_job(read_file(file), resolved.spec(), file)) {
     write_file_atomically(file, job_text(resolved.spec()));
   }
@@ -107,6 +121,21 @@ fs::path JobFolder::log_file(std::string name) const {
 }
 
 bool JobFolder::is_done(const Task& task) const { return fs::exists(output_of(task)); }
+
+void JobFolder::remove_damaged() const {
+  std::error_code error;
+  for (const char* name : {"work", "logs", "attempts", "recorded", "dataset"}) {
+    if (!fs::is_directory(path_ / name, error)) fs::remove_all(path_ / name, error);
+  }
+  if (!fs::is_regular_file(dataset() / kManifestName, error)) fs::remove_all(dataset(), error);
+  for (const auto& run : fs::directory_iterator(path_ / "work", error)) {
+    if (run.path().filename() == "people") continue;  // heal_library_pin()
+    if (!run.is_directory(error)) fs::remove_all(run.path(), error);
+    for (const auto& output : fs::directory_iterator(run.path(), error)) {
+      if (is_damaged_output(output.path())) fs::remove_all(output.path(), error);
+    }
+  }
+}
 
 void JobFolder::remove_leftovers() const {
   remove_temporaries(path_);

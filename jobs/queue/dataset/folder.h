@@ -40,6 +40,10 @@ class JobFolder {
   /// Whether a task has published its output, which appears whole or not at all.
   bool is_done(const Task& task) const;
 
+  /// Removes what is in the place of a folder and is none, output without content, and a dataset
+  /// without its manifest: the tasks that made them are not done. Call it as remove_leftovers().
+  void remove_damaged() const;
+
   /// Removes incomplete output of workers that died. Call it only while no worker runs in the
   /// folder.
   void remove_leftovers() const;

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 
 namespace throng::jobs {
 
-/// Holds the lock until destruction.
+/// Holds the lock until destruction. Safe to use from many threads.
 class FolderLock {
  public:
   /// Locks the file `name` in the folder, creating it if needed; `what` describes the folder in
@@ -17,12 +18,21 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// Whether the path still leads to the locked file, which may have been removed or replaced.
+  /// Locks a folder itself, which nobody removes as they may remove a file in it. Only its owner
+  /// should be able to open it: who can may lock it. On file systems that lock files only (NFS), it
+  /// is not locked. Throws EnvironmentError if another process holds the lock.
+  FolderLock(const std::filesystem::path& folder, const std::string& what);
+
+  /// Whether the path leads to the locked file. If the file was removed or replaced, that at the
+  /// path is locked; false if another process has done so.
   bool is_in_place() const;
 
  private:
+  bool open_and_lock() const;
+
   std::filesystem::path file_;
-  int descriptor_;
+  mutable std::mutex mutex_;
+  mutable int descriptor_ = -1;  ///< guarded by mutex_
 };
 
 }  // namespace throng::jobs

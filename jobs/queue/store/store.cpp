@@ -115,6 +115,11 @@ Retried Store::retry(const JobRow& row, const OwnerLimits& limits) {
   return retried;
 }
 
+std::int64_t Store::bytes_of(const std::string& owner) const {
+  return connections_->read(
+      [&](SQLite::Database& database) { return owner_usage(database, owner).bytes; });
+}
+
 std::optional<JobRow> Store::change(const std::string& id, const JobChange& change) {
   std::optional<JobRow> changed;
   connections_->write([&] {

@@ -174,6 +174,8 @@ class Store {
 
   /// Applies JobEvent::retry unless the job's owner has reached a limit. Durable.
   Retried retry(const JobRow& row, const OwnerLimits& limits);
+  /// Disk usage of an owner's jobs as OwnerLimits::max_bytes counts it.
+  std::int64_t bytes_of(const std::string& owner) const;
 
   /// Changes a job's properties. Returns the new row; std::nullopt if there is no such job.
   /// Durable.

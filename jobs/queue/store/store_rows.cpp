@@ -174,17 +174,20 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   insert.exec();
 }
 
-std::string over_quota(SQLite::Database& database, const std::string& owner,
-                       const OwnerLimits& limits, std::int64_t added_bytes) {
-  if (limits.max_active <= 0 && limits.max_bytes <= 0) return "";
+OwnerUsage owner_usage(SQLite::Database& database, const std::string& owner) {
   SQLite::Statement query(database,
                           "SELECT coalesce(sum(state IN ('queued', 'running')), 0), "
                           "coalesce(sum(CASE WHEN state IN ('queued', 'running') THEN max(bytes, "
                           "planned_bytes) ELSE bytes END), 0) FROM job WHERE owner = ?");
   query.bind(1, owner);
   query.executeStep();
-  const std::int64_t active = query.getColumn(0);
-  const std::int64_t bytes = query.getColumn(1);
+  return {query.getColumn(0).getInt64(), query.getColumn(1).getInt64()};
+}
+
+std::string over_quota(SQLite::Database& database, const std::string& owner,
+                       const OwnerLimits& limits, std::int64_t added_bytes) {
+  if (limits.max_active <= 0 && limits.max_bytes <= 0) return "";
+  const auto [active, bytes] = owner_usage(database, owner);
   if (limits.max_active > 0 && active >= limits.max_active) {
     return fmt::format("{} of your jobs wait or run, which is as many as this key may have",
                        limits.max_active);
@@ -194,7 +197,7 @@ std::string over_quota(SQLite::Database& database, const std::string& owner,
     return fmt::format(
         "your jobs take {} bytes of disk, those that wait or run as they are estimated, and this "
         "one "
-        "about {} more; this key may have {}: remove some, or ask for less",
+        "about {} more; this key may have {} beside its live flights: remove some, or ask for less",
         bytes, added_bytes, limits.max_bytes);
   }
   return "";

@@ -54,6 +54,13 @@ void write_event(SQLite::Database& database, const std::string& job, std::int64_
 std::optional<ClockMark> clock_mark(SQLite::Database& database);
 void save_mark(SQLite::Database& database, const ClockMark& mark);
 
+/// Number of an owner's active jobs, and disk usage of all: of active ones as estimated or more.
+struct OwnerUsage {
+  std::int64_t active = 0;
+  std::int64_t bytes = 0;
+};
+OwnerUsage owner_usage(SQLite::Database& database, const std::string& owner);
+
 /// The limit that keeps an owner from having another active job that adds so many bytes, as a
 /// sentence; "" if none does.
 std::string over_quota(SQLite::Database& database, const std::string& owner,

@@ -16,6 +16,7 @@
 #include "base/files/resources.h"
 #include "base/resource_exhaustion.h"
 #include "jobs/queue/confine/child_process.h"
+#include "jobs/queue/confine/credentials.h"
 #include "jobs/queue/confine/machine_memory.h"
 #include "jobs/queue/confine/worker_limits.h"
 #include "jobs/queue/workers/worker_exit.h"

@@ -1,6 +1,7 @@
 // Violations of a schema: their places and their words.
 #include "base/schemas/json_schema.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@ namespace throng::schemas {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -16,6 +18,8 @@ JsonSchema example() {
     "type": "object", "additionalProperties": false, "required": ["name"],
     "properties": {
       "name": {"type": "string", "maxLength": 5},
+      "title": {"type": "string", "x-one-line": true},
+      "titles": {"type": "array", "items": {"type": "string", "x-one-line": true}},
       "weather": {"type": "string", "enum": ["clear", "overcast", "rain"]},
       "points": {"type": "array", "items": {"$ref": "#/definitions/point"}},
       "speed": {"x-expected": "a number or a distribution",
@@ -55,6 +59,19 @@ TEST(JsonSchema, NamesThePlaceAndTheExpectation) {
   EXPECT_THAT(violations(R"({"name": "a", "frames": {"x": {"mas": 1}}})"),
               ElementsAre(HasSubstr("/frames/x/mas: unknown field \"mas\" / \"mass\"")));
   EXPECT_THAT(violations("[1]"), ElementsAre(HasSubstr("an object")));
+}
+
+TEST(JsonSchema, TextsOfOneLineHaveNoControlCharacters) {
+  for (const char* text : {"a\\nb", "\\u001b[2J", "\\u0000", "del\x7f", "c1\xc2\x9b"}) {
+    EXPECT_THAT(violations(fmt::format(R"({{"name": "a", "title": "{}"}})", text).c_str()),
+                ElementsAre(AllOf(::testing::StartsWith("/title: "),
+                                  HasSubstr("a text without control characters"))))
+        << text;
+  }
+  EXPECT_THAT(violations(R"({"name": "a", "titles": ["b", "c\td"]})"),
+              ElementsAre(::testing::StartsWith("/titles/1: ")));
+  EXPECT_THAT(violations(R"({"name": "a\nb", "title": "Zoë’s «big» 群衆", "titles": [""]})"),
+              ElementsAre());
 }
 
 TEST(JsonSchema, NamesTheWordThatAMisspelledOneIsNearestTo) {

@@ -56,6 +56,37 @@ TEST(Listing, AnswersThatAreNoListingsAreRefused) {
   }
 }
 
+TEST(Listing, OneThatDoesNotEndIsRefused) {
+  Page<ListedObject> page;
+  page.entries.assign(1000, ListedObject{std::string(1000, 'k'), 1, std::string(32, 't')});
+  ListingBound large;
+  int pages = 0;
+  const auto add_all = [&] {
+    for (; pages < 1000; ++pages) {
+      page.next = {{"continuation-token", std::to_string(pages)}};
+      large.add(page);
+    }
+  };
+  EXPECT_THROW(add_all(), EnvironmentError);
+  EXPECT_GT(pages, 200);
+
+  Page<ListedUpload> again;
+  again.next = {{"key-marker", "a"}, {"upload-id-marker", "b"}};
+  ListingBound circle;
+  circle.add(again);
+  EXPECT_THROW(circle.add(again), EnvironmentError);
+
+  ListingBound empty;
+  Page<ListedPart> nothing;
+  const auto add_nothing = [&] {
+    for (int i = 0; i <= 100'000; ++i) {
+      nothing.next = {{"part-number-marker", std::to_string(i)}};
+      empty.add(nothing);
+    }
+  };
+  EXPECT_THROW(add_nothing(), EnvironmentError);
+}
+
 TEST(Listing, AnErrorIsItsCodeAndItsMessage) {
   const StoreError error = read_error(
       "<?xml version=\"1.0\"?>\n<Error><Code>SignatureDoesNotMatch</Code>"

@@ -85,6 +85,15 @@ TEST(FlightRecording, EndsBeforeTheDiskIsFull) {
   EXPECT_EQ(read_messages(folder).size(), 0U);
 }
 
+TEST(FlightRecording, EndsWhenItHasTheBytesThatAreLeftToIt) {
+  const jobs::TemporaryFolder folder;
+  FlightRecording recording(folder.path() / kRecordingFile, 0, 1);
+  for (const double time_s : {0.0, 2.0, 4.0, 6.0}) recording.add(text_at(time_s));
+  const json result = recording.finish();
+  EXPECT_THAT(result["problem"].get<std::string>(), HasSubstr("share of the disk"));
+  EXPECT_LT(result["complete_until_s"].get<double>(), 6);
+}
+
 TEST(FlightRecording, WithoutAFolderThereIsNoFile) {
   FlightRecording recording("/nowhere/flight.mcap", 0);
   recording.add(text_at(3));

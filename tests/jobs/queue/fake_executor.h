@@ -13,6 +13,7 @@
 #include "base/files/hash.h"
 #include "jobs/queue/dataset/manifest.h"
 #include "jobs/queue/delivery.h"
+#include "jobs/queue/trace_seal.h"
 #include "jobs/queue/workers/executor.h"
 
 namespace throng::jobs {
@@ -71,9 +72,13 @@ class FakeExecutor : public Executor {
 
   static void publish(const JobFolder& folder, const Task& task) {
     const std::filesystem::path output = folder.output_of(task);
-    if (task.kind == Task::Kind::simulate) return write_file_atomically(output, "trace");
+    if (task.kind == Task::Kind::simulate) {
+      write_file_atomically(output, "trace");
+      return seal_trace(output);
+    }
     if (task.kind == Task::Kind::publish) return write_delivery(folder, {"s3://data/set", 2, 20});
     StagingFolder staging(output);
+    write_file_atomically(staging.path() / "made.json", "{}");
     if (task.kind == Task::Kind::collect) {
       const std::string metrics = R"({"runs":[]})";
       write_file_atomically(staging.path() / "metrics.json", metrics);

@@ -5,10 +5,16 @@
 #include <algorithm>
 
 #include "base/files/files.h"
+#include "spec/job/spec.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {
 namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kFlight =
+    R"({"scenario": "yard", "drones": [{"id": "d", "start": [0, 0, 9]}]})";
 
 class KeysTest : public ApiTest {
  protected:
@@ -83,12 +89,72 @@ TEST_F(KeysTest, AdministratorsMakeAndRevokeThemOverHttp) {
   expect_problem(client().Delete("/v1/keys/" + admin.substr(7, 8), with(admin)), 409);
 }
 
+TEST_F(KeysTest, RevokingAKeyCancelsWhatItHasUnderWay) {
+  const std::string admin = keys.create("admin", Scope::admin);
+  const std::string here = keys.create("revoked over HTTP", Scope::submit);
+  const std::string elsewhere = keys.create("revoked by throng keys", Scope::submit);
+  Gate gate(executor);
+  const auto submitted = [&](const std::string& token) {
+    const httplib::Result answer = client().Post("/v1/jobs", with(token), kJob, "application/json");
+    return json::parse(answer->body)["id"].get<std::string>();
+  };
+  const auto state = [&](const std::string& id) {
+    return json::parse(get("/v1/jobs/" + id, with(admin))->body)["state"].get<std::string>();
+  };
+  const std::string running = submitted(here);
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+  const std::string queued = submitted(here);
+  const std::string queued_too = submitted(here);
+  const std::string of_other = submitted(elsewhere);
+  const std::string of_admin = submitted(admin);
+
+  const httplib::Result revoked =
+      client().Delete("/v1/keys/" + keys.caller_of(here)->key_id, with(admin));
+  ASSERT_EQ(revoked->status, 200);
+  EXPECT_EQ(json::parse(revoked->body)["ended"], json({{"jobs", 3}, {"live_flights", 0}}));
+  for (const std::string& id : {running, queued, queued_too}) EXPECT_EQ(state(id), "cancelled");
+  expect_problem(client().Post("/v1/jobs/" + queued + "/retry", with(admin), "", ""), 409);
+  EXPECT_NE(state(of_other), "cancelled");
+
+  EXPECT_TRUE(keys.revoke(keys.caller_of(elsewhere)->key_id));
+  EXPECT_TRUE(wait_until([&] { return state(of_other) == "cancelled"; }));
+  gate.open();
+  EXPECT_TRUE(wait_until([&] { return state(of_admin) == "succeeded"; }));
+  EXPECT_EQ(state(running), "cancelled");
+}
+
+TEST_F(KeysTest, RecordingsOfLiveFlightsCountForTheDiskOfAKey) {
+  constexpr std::int64_t kShare = 40 << 20;
+  const std::string token = keys.create("flier", Scope::submit, 0, kShare);
+  const std::string id = keys.caller_of(token)->key_id;
+  const auto submitted = [&] {
+    return client().Post("/v1/jobs", with(token), kJob, "application/json");
+  };
+  EXPECT_EQ(submitted()->status, 201);
+  const auto flight =
+      service.live().begin(jobs::ResolvedJob(jobs::parse_job(kFlight, ""), {10}), id, true);
+  write_file_atomically(flight->recording(), std::string(kShare, 'x'));
+  EXPECT_GE(service.live().disk_bytes_of(id), kShare);
+  EXPECT_EQ(service.live().disk_bytes_of("another"), 0);
+  expect_problem(submitted(), 429);
+  const json another = {{"job", json::parse(kFlight)}, {"record", true}};
+  const httplib::Result refused =
+      client().Post("/v1/live", with(token), another.dump(), "application/json");
+  expect_problem(refused, 429);
+  EXPECT_THAT(refused->body, HasSubstr("without a recording"));
+  EXPECT_TRUE(service.live().remove(flight->id()));
+  EXPECT_EQ(submitted()->status, 201);
+}
+
 TEST_F(KeysTest, WrongFieldsOfAKeyAreNamed) {
   const std::string admin = keys.create("admin", Scope::admin);
   const std::pair<json, const char*> wrong[] = {
       {json::object(), "/name"},
       {{{"name", ""}}, "/name"},
       {{{"name", "two\nlines"}}, "/name"},
+      {{{"name", "\x1b[2J"}}, "/name"},
+      {{{"name", "del\x7f"}}, "/name"},
+      {{{"name", "c1\xc2\x9b"}}, "/name"},
       {{{"name", "a"}, {"scope", "root"}}, "/scope"},
       {{{"name", "a"}, {"scope", "anybody"}}, "/scope"},
       {{{"name", "a"}, {"max_jobs", -1}}, "/max_jobs"},

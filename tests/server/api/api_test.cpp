@@ -159,6 +159,30 @@ TEST_F(ApiTest, AReportThatFailsIsTriedAgain) {
   EXPECT_EQ(report_of(id)->body, "page");
 }
 
+TEST_F(ApiTest, ControlCharactersInNamesAreRefused) {
+  const auto refused = [&](const std::string& path, const std::string& body) {
+    const httplib::Result answer = client().Post(path, body, "application/json");
+    expect_problem(answer, 400);
+    return json::parse(answer->body)["errors"][0]["pointer"].get<std::string>();
+  };
+  for (const char* name : {"a\\nb", "\\u001b[2J", "tab\\t", "del\x7f", "c1\xc2\x9b", "\\u0000"}) {
+    EXPECT_EQ(refused("/v1/jobs", fmt::format(R"({{"scenario": "yard", "name": "{}"}})", name)),
+              "/name")
+        << name;
+    EXPECT_EQ(refused("/v1/calibrations", fmt::format(R"({{"name": "{}"}})", name)), "/name")
+        << name;
+  }
+  for (const char* label : {"a%0Ab", "%1B[2J", "%C2%9B", "%7F"}) {
+    const httplib::Result answer =
+        client().Post(fmt::format("/v1/jobs?label={}", label), kJob, "application/json");
+    expect_problem(answer, 400);
+    EXPECT_EQ(json::parse(answer->body)["errors"][0]["pointer"], "?label");
+  }
+  const char* sound =
+      R"({"scenario": "yard", "capture": {"to_s": 2}, "name": "Zoë's “big” 群衆 <1>"})";
+  EXPECT_EQ(client().Post("/v1/jobs?label=fa%C3%A7ade", sound, "application/json")->status, 201);
+}
+
 TEST_F(ApiTest, ErrorsAreSentInFullForAnyRange) {
   const httplib::Headers range = {{"Range", "bytes=0-10"}};
   expect_problem(get("/v1/jobs/jnosuchjob000000/archive", range), 404);

@@ -276,9 +276,42 @@ TEST_F(ServiceTest, AJobThatRunsSurvivesTheLossOfTheLock) {
   Service service(options(), executor);
   const std::string id = service.queue().submit({kJob}).row.id;
   ASSERT_TRUE(wait_until([&] { return was_lost.load(); }));
-  EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError);
+  EXPECT_TRUE(service.queue().submit({kJob}).is_new) << "the lock is taken again";
   std::filesystem::rename(away, lock);
   EXPECT_TRUE(reaches(service, id, JobState::succeeded));
+}
+
+TEST_F(ServiceTest, NoSecondServiceStartsWhateverFilesAreRemoved) {
+  const auto first = std::make_unique<Service>(options(), executor);
+  Gate gate(executor);
+  const std::string id = first->queue().submit({kJob}).row.id;
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+  jobs::FakeExecutor other;
+  for (const char* name : {"lock", "reserve", "keys.sqlite"}) {
+    std::filesystem::remove(data.path() / name);
+    EXPECT_THROW(Service(options(), other), EnvironmentError) << name;
+  }
+  ServiceOptions elsewhere = options();
+  const jobs::TemporaryFolder database;
+  elsewhere.database = database.path();
+  EXPECT_THROW(Service(elsewhere, other), EnvironmentError) << "it would take the jobs for strange";
+  EXPECT_TRUE(std::filesystem::exists(first->folders().job_folder(id)));
+  gate.open();
+  EXPECT_TRUE(reaches(*first, id, JobState::succeeded));
+  EXPECT_TRUE(other.done().empty());
+}
+
+TEST_F(ServiceTest, OtherUsersOfTheMachineEnterNoFolder) {
+  // An earlier version has made them; the umask of the process is for new ones.
+  for (const char* name : {"jobs", "uploads", "quarantine"}) {
+    std::filesystem::create_directories(data.path() / name);
+  }
+  const Service service(options(), executor);
+  for (const char* name : {"jobs", "uploads", "quarantine"}) {
+    EXPECT_EQ(std::filesystem::status(data.path() / name).permissions(),
+              std::filesystem::perms::owner_all)
+        << name;
+  }
 }
 
 TEST_F(ServiceTest, RetryHealsTheNoteOfTheCharacters) {
@@ -379,6 +412,37 @@ TEST_F(ServiceTest, RetryHealsAJobWhoseFilesWereDeletedOrDamaged) {
       +[](const fs::path& job) { write_file_atomically(job / "job.json", "{\"scen"); },
       +[](const fs::path& job) {
         for (const auto& run : fs::directory_iterator(job / "work")) fs::remove_all(run);
+      },
+      +[](const fs::path& job) {
+        for (const char* name : {"work", "logs", "attempts", "dataset"}) {
+          fs::remove_all(job / name);
+          write_file_atomically(job / name, "");
+        }
+      },
+      +[](const fs::path& job) { fs::create_directory(job / "dataset"); },
+      +[](const fs::path& job) {
+        fs::create_directory(job / "dataset");
+        write_file_atomically(job / "dataset/dataset.json", "{}");
+      },
+      +[](const fs::path& job) {
+        for (const char* name : {"trace.h5", "metrics", "shard0000"}) {
+          fs::remove_all(job / "work/run000" / name);
+          fs::create_directory(job / "work/run000" / name);
+        }
+      },
+      +[](const fs::path& job) {
+        for (const char* name : {"trace.h5.sha256", "metrics", "shard0000"}) {
+          fs::remove_all(job / "work/run000" / name);
+        }
+        write_file_atomically(job / "work/run000/trace.h5", "tra");
+      },
+      +[](const fs::path& job) {
+        fs::remove(job / "job.json");
+        fs::create_directory(job / "job.json");
+      },
+      +[](const fs::path& job) {
+        fs::remove_all(job);
+        write_file_atomically(job, "");
       }};
   for (const auto& damage : damages) {
     fails = true;
@@ -388,6 +452,8 @@ TEST_F(ServiceTest, RetryHealsAJobWhoseFilesWereDeletedOrDamaged) {
     fails = false;
     ASSERT_TRUE(service.queue().retry(id, {}));
     EXPECT_TRUE(reaches(service, id, JobState::succeeded)) << service.queue().get(id)->error_json;
+    EXPECT_TRUE(fs::exists(service.folders().dataset_folder(id) / "manifest.json"));
+    EXPECT_EQ(read_file(service.folders().job_folder(id) / "work/run000/trace.h5"), "trace");
   }
 }
 
@@ -455,18 +521,24 @@ TEST_F(ServiceTest, JobsAreKeptAsLongWhateverTheClockIsSetTo) {
 }
 
 TEST_F(ServiceTest, NothingIsAcceptedOnceTheStoreWasRemoved) {
-  for (const char* name : {"jobs.sqlite", "lock"}) {
-    Service service(options(), executor);
-    const std::string id = service.queue().submit({kJob}).row.id;
-    ASSERT_TRUE(reaches(service, id, JobState::succeeded));
-    std::filesystem::rename(data.path() / name, data.path() / "aside");
-    EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError) << name;
-    EXPECT_THROW(service.queue().check_store(), EnvironmentError) << name;
-    write_file_atomically(data.path() / name, "");  // another is not the same
-    EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError) << name;
-    std::filesystem::rename(data.path() / "aside", data.path() / name);
-    EXPECT_TRUE(service.queue().submit({kJob}).is_new) << name;
-  }
+  Service service(options(), executor);
+  const std::string id = service.queue().submit({kJob}).row.id;
+  ASSERT_TRUE(reaches(service, id, JobState::succeeded));
+  const std::filesystem::path file = data.path() / "jobs.sqlite";
+  std::filesystem::rename(file, data.path() / "aside");
+  EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError);
+  EXPECT_THROW(service.queue().check_store(), EnvironmentError);
+  write_file_atomically(file, "");  // another is not the same
+  EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError);
+  std::filesystem::rename(data.path() / "aside", file);
+  EXPECT_TRUE(service.queue().submit({kJob}).is_new);
+}
+
+TEST_F(ServiceTest, NothingIsAcceptedOnceAnotherProcessHasTheLock) {
+  Service service(options(), executor);
+  std::filesystem::remove(data.path() / "lock");
+  const jobs::FolderLock other(data.path(), "lock", "data folder");
+  EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError);
 }
 
 }  // namespace

@@ -36,6 +36,26 @@ done
 
 jobs::ResolvedJob resolved() { return jobs::ResolvedJob(jobs::parse_job(kJobText, ""), {10}); }
 
+TEST(LiveFlights, ThoseOfRevokedKeysEnd) {
+  const jobs::TemporaryFolder folder;
+  LiveFlights flights(folder.path(), limits_with(folder, kUntilStop));
+  const auto of_alice = flights.begin(resolved(), "alice");
+  const auto of_bob = flights.begin(resolved(), "bob");
+  EXPECT_EQ(flights.remove_all_of({"alice", "carol"}), 1);
+  EXPECT_EQ(flights.find(of_alice->id()), nullptr);
+  EXPECT_NE(flights.find(of_bob->id()), nullptr);
+}
+
+TEST(LiveFlights, ARecordingHasTheBytesThatAreLeftToItsKey) {
+  const jobs::TemporaryFolder folder;
+  LiveFlights flights(folder.path(), limits_with(folder, R"(echo "$4 $5" > "$1/flight.mcap")" +
+                                                             std::string(kUntilStop)));
+  const auto flight = flights.begin(resolved(), "alice", true, 1234);
+  EXPECT_TRUE(flight->stop());
+  EXPECT_EQ(read_file(flight->recording()), "--max-bytes 1234\n");
+  EXPECT_GT(flights.disk_bytes_of("alice"), 0);
+}
+
 TEST(LiveFlights, CommandsGoInAndMessagesComeOut) {
   const jobs::TemporaryFolder folder;
   LiveFlights flights(folder.path(), limits_with(folder, kUntilStop));

@@ -67,7 +67,12 @@ bool are_ways_around_refused() {
          is_refused(SYS_setns) && is_refused(SYS_sendmsg, pair[0], &message, 0) &&
          is_refused(SYS_sendmmsg, pair[0], &message, 0, 0) &&
          is_refused(SYS_symlinkat, "x", AT_FDCWD, "throng_link") &&
-         is_refused(SYS_mknodat, AT_FDCWD, "throng_pipe", S_IFIFO | 0600, 0);
+         is_refused(SYS_mknodat, AT_FDCWD, "throng_pipe", S_IFIFO | 0600, 0) &&
+         is_refused(SYS_chmod, "x", 0666) && is_refused(SYS_fchmod, pair[0], 0666) &&
+         is_refused(SYS_fchmodat, AT_FDCWD, "x", 0666) && is_refused(452, AT_FDCWD, "x", 0666, 0) &&
+         is_refused(SYS_chown, "x", 0, 0) && is_refused(SYS_fchownat, AT_FDCWD, "x", 0, 0, 0) &&
+         is_refused(SYS_setxattr, "x", "user.a", "b", 1, 0) &&
+         is_refused(SYS_utimensat, AT_FDCWD, "x", nullptr, 0);
 }
 
 TEST(WorkerLimits, WaysAroundTheSocketAreRefused) {
@@ -105,6 +110,23 @@ bool is_protected_from_others() {
   int status = 1;
   if (::write(ready[1], "x", 1) != 1 || ::waitpid(child, &status, 0) != child) return false;
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+// Root reads everything, unless it has given up its privileges.
+bool is_protected_from_limited_root() {
+  protect_this_process();
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (!limit_this_process().empty()) leave(true);
+    leave(!can_read(parent, "environ") && !can_read(parent, "mem"));
+  }
+  int status = 1;
+  return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST(WorkerLimits, WorkersOfRootReadNeitherMemoryNorEnvironmentOfTheService) {
+  EXPECT_EXIT(leave(is_protected_from_limited_root()), testing::ExitedWithCode(0), "");
 }
 
 TEST(WorkerLimits, OthersOfTheSameUserReadNeitherMemoryNorEnvironment) {

@@ -162,7 +162,7 @@ class SlurmArraysTest : public testing::Test {
 TEST_F(SlurmArraysTest, DatasetsArePublishedHereAndNodesSeeNoCredentials) {
   ::setenv("AWS_SECRET_ACCESS_KEY", "hunter2", 1);
   SlurmArrays slurm(options_for("env > $job/node; end 0"),
-                    {.command = {"/bin/sh", "-c", "env > $2/here", "worker"}});
+                    {.command = {"/bin/sh", "-c", "cat > $2/here", "worker"}});
   const JobFolder job(folder.path());
   const std::vector<Task> simulate = {{Task::Kind::simulate}};
   const std::vector<Task> publish = {{Task::Kind::publish}};

@@ -100,7 +100,7 @@ TEST_F(LocalProcessesTest, OnlyTheOneThatPublishesGetsCredentials) {
   const Variable secret("AWS_SECRET_ACCESS_KEY", "hunter2");
   const Variable profile("AWS_SHARED_CREDENTIALS_FILE", "/srv/keys");
   LocalProcessesOptions options;
-  options.command = {"/bin/sh", "-c", "env > $2/$4.env", "worker"};
+  options.command = {"/bin/sh", "-c", "env > $2/$4.env; cat > $2/$4.in", "worker"};
   LocalProcesses processes(options);
   const auto environment_of = [&](const Task& task) {
     std::filesystem::create_directories((folder.path() / to_string(task)).parent_path());
@@ -108,7 +108,11 @@ TEST_F(LocalProcessesTest, OnlyTheOneThatPublishesGetsCredentials) {
     processes.run(JobFolder(folder.path()), tasks, {}, {});
     return read_file(folder.path() / (to_string(task) + ".env"));
   };
-  EXPECT_THAT(environment_of({Task::Kind::publish}), HasSubstr("AWS_SECRET_ACCESS_KEY=hunter2\n"));
+  const auto input_of = [&](const Task& task) {
+    return read_file(folder.path() / (to_string(task) + ".in"));
+  };
+  EXPECT_THAT(environment_of({Task::Kind::publish}), testing::Not(HasSubstr("AWS_")));
+  EXPECT_THAT(input_of({Task::Kind::publish}), HasSubstr("AWS_SECRET_ACCESS_KEY=hunter2"));
   for (const Task::Kind kind : {Task::Kind::simulate, Task::Kind::measure, Task::Kind::render,
                                 Task::Kind::collect, Task::Kind::calibrate, Task::Kind::report,
                                 Task::Kind::study_run, Task::Kind::study_report}) {
@@ -116,6 +120,7 @@ TEST_F(LocalProcessesTest, OnlyTheOneThatPublishesGetsCredentials) {
     EXPECT_THAT(environment, testing::Not(HasSubstr("AWS_")));
     EXPECT_THAT(environment, testing::Not(HasSubstr("hunter2")));
     EXPECT_THAT(environment, HasSubstr("THRONG_PRIVATE_CREDENTIALS=/srv/keys\n"));
+    EXPECT_EQ(input_of({kind}), "");
   }
 }
 
