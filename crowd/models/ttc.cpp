@@ -48,7 +48,8 @@ constexpr float kCreep = 0.05F;  // of the free speed, in single file without a 
 
 /// People who stand before a wall that is straight on their way (a column) pass along it.
 constexpr float kStandingMps = 0.1F;
-constexpr float kTouchM = 0.05F;      // from the body to the wall
+constexpr float kMaxPassingDensity = 0.5F;  // 1/m^2 of people who walk the same way: no queue
+constexpr float kTouchM = 0.05F;            // from the body to the wall
 constexpr float kHeadOn = 0.9F;       // cosine between the wished direction and the wall's normal
 constexpr float kPatienceS = 0.5F;    // of standing before one passes along
 constexpr float kMaxPassingS = 5;     // then one stands: the wall is no column
@@ -192,6 +193,7 @@ class TimeToCollision : public Model {
     float& time_s = at_wall_s_[id];
     const auto dt_s = static_cast<float>(crowd.dt_s);
     const bool may_be = crowd.agents.preferred_speed[id] > 0 &&
+                        perceived_[id] < kMaxPassingDensity &&
                         (passes_wall_[id] != 0 || velocity.norm() <= kStandingMps);
     if (!may_be || !is_before_wall(crowd, grid, slot, walls)) {
       time_s = std::max(0.0F, time_s - kForgetting * dt_s);
