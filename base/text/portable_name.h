@@ -1,4 +1,4 @@
-// Names of files that Linux, macOS and Windows all allow, and tell apart.
+// Names of files that are allowed and distinct on Linux, macOS and Windows.
 #pragma once
 
 #include <cstddef>

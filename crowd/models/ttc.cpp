@@ -48,7 +48,8 @@ constexpr float kCreep = 0.05F;  // of the free speed, in single file without a 
 
 /// People who stand before a wall that is straight on their way (a column) pass along it.
 constexpr float kStandingMps = 0.1F;
-constexpr float kTouchM = 0.05F;      // from the body to the wall
+constexpr float kMaxPassingDensity = 0.5F;  // 1/m^2 of people who walk the same way: no queue
+constexpr float kTouchM = 0.05F;            // from the body to the wall
 constexpr float kHeadOn = 0.9F;       // cosine between the wished direction and the wall's normal
 constexpr float kPatienceS = 0.5F;    // of standing before one passes along
 constexpr float kMaxPassingS = 5;     // then one stands: the wall is no column
@@ -170,32 +171,40 @@ class TimeToCollision : public Model {
     return kPassingCosine * wished + side * kPassingSine * Eigen::Vector2f(-wished.y(), wished.x());
   }
 
+  /// Whether the agent touches a wall that is straight on its way.
+  static bool is_before_wall(const Crowd& crowd, const Grid& grid, std::size_t slot,
+                             std::span<const Obstacles::Near> walls) {
+    const std::size_t id = grid.id(slot);
+    const float touch_m = grid.radius(slot) + kTouchM;
+    return std::any_of(walls.begin(), walls.end(), [&](const Obstacles::Near& near) {
+      if (near.distance_sq > touch_m * touch_m) return false;
+      const Segment& wall = crowd.obstacles.segments()[near.segment];
+      const Eigen::Vector2f to_wall =
+          geometry::nearest_on_segment(wall.begin, wall.end, grid.position(slot)) -
+          grid.position(slot);
+      return to_wall.dot(crowd.agents.preferred_direction[id]) > kHeadOn * to_wall.norm();
+    });
+  }
+
   /// Counts how long an agent has stood before a wall that is straight on its way.
   void count_time_at_wall(const Crowd& crowd, const Grid& grid, std::size_t slot,
                           const Eigen::Vector2f& velocity, std::span<const Obstacles::Near> walls) {
     const std::size_t id = grid.id(slot);
-    const Agents& agents = crowd.agents;
     float& time_s = at_wall_s_[id];
-    const float touch_m = grid.radius(slot) + kTouchM;
-    const bool is_head_on =
-        agents.preferred_speed[id] > 0 &&
-        std::any_of(walls.begin(), walls.end(), [&](const Obstacles::Near& near) {
-          if (near.distance_sq > touch_m * touch_m) return false;
-          const Segment& wall = crowd.obstacles.segments()[near.segment];
-          const Eigen::Vector2f to_wall =
-              geometry::nearest_on_segment(wall.begin, wall.end, grid.position(slot)) -
-              grid.position(slot);
-          return to_wall.dot(agents.preferred_direction[id]) > kHeadOn * to_wall.norm();
-        });
     const auto dt_s = static_cast<float>(crowd.dt_s);
-    const bool was_passing = passes_wall_[id] != 0;
-    if (!is_head_on || (!was_passing && velocity.norm() > kStandingMps)) {
+    const bool may_be = crowd.agents.preferred_speed[id] > 0 &&
+                        perceived_[id] < kMaxPassingDensity &&
+                        (passes_wall_[id] != 0 || velocity.norm() <= kStandingMps);
+    if (!may_be || !is_before_wall(crowd, grid, slot, walls)) {
       time_s = std::max(0.0F, time_s - kForgetting * dt_s);
-    } else if (time_s < kMaxPassingS) {
+      passes_wall_[id] = 0;
+      return;
+    }
+    if (time_s < kMaxPassingS) {
       time_s += dt_s;
       if (time_s >= kMaxPassingS) time_s = kGivenUpS;
     }
-    passes_wall_[id] = is_head_on && time_s >= kPatienceS && time_s < kMaxPassingS ? 1 : 0;
+    passes_wall_[id] = time_s >= kPatienceS && time_s < kMaxPassingS ? 1 : 0;
   }
 
   void add(const Crowd& crowd, const Grid& grid, const AgentView& around, Workspace& work) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -37,32 +38,18 @@ struct NamedModel {
 
 constexpr std::string_view kMei = "MEI";  // the unified model of Mei and Rives 2007
 
+/// Parameters whose names in the file are throng's.
+std::vector<NamedParameter> same_names(std::initializer_list<std::string_view> names) {
+  std::vector<NamedParameter> parameters;
+  for (const std::string_view name : names) parameters.push_back({name, name});
+  return parameters;
+}
+
 const std::vector<NamedModel>& camodocal_models() {
   static const std::vector<NamedModel> kModels = {
-      {"PINHOLE",
-       Lens::brown4,
-       {{"fx", "fx"},
-        {"fy", "fy"},
-        {"cx", "cx"},
-        {"cy", "cy"},
-        {"k1", "k1"},
-        {"k2", "k2"},
-        {"p1", "p1"},
-        {"p2", "p2"}}},
-      {"PINHOLE_FULL",
-       Lens::brown8,
-       {{"fx", "fx"},
-        {"fy", "fy"},
-        {"cx", "cx"},
-        {"cy", "cy"},
-        {"k1", "k1"},
-        {"k2", "k2"},
-        {"k3", "k3"},
-        {"k4", "k4"},
-        {"k5", "k5"},
-        {"k6", "k6"},
-        {"p1", "p1"},
-        {"p2", "p2"}}},
+      {"PINHOLE", Lens::brown4, same_names({"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2"})},
+      {"PINHOLE_FULL", Lens::brown8,
+       same_names({"fx", "fy", "cx", "cy", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"})},
       {"KANNALA_BRANDT",
        Lens::fisheye,
        {{"mu", "fx"},
@@ -87,16 +74,15 @@ std::vector<NamedModel> make_opensfm_models() {
     return model;
   };
   const std::vector<NamedParameter> uniform = {{"focal", "f"}, {"k1", "k1"}, {"k2", "k2"}};
-  const std::vector<NamedParameter> four = {{"k1", "k1"}, {"k2", "k2"}, {"k3", "k3"}, {"k4", "k4"}};
+  const std::vector<NamedParameter> four = same_names({"k1", "k2", "k3", "k4"});
   std::vector<NamedParameter> more = four;
   for (const char* name : {"k5", "k6", "p1", "p2", "s0", "s1", "s2", "s3"}) {
     more.push_back({name, ""});
   }
   return {{"perspective", Lens::brown2, uniform},
-          affine("simple_radial", Lens::brown2, {{"k1", "k1"}}),
-          affine("radial", Lens::brown2, {{"k1", "k1"}, {"k2", "k2"}}),
-          affine("brown", Lens::brown5,
-                 {{"k1", "k1"}, {"k2", "k2"}, {"p1", "p1"}, {"p2", "p2"}, {"k3", "k3"}}),
+          affine("simple_radial", Lens::brown2, same_names({"k1"})),
+          affine("radial", Lens::brown2, same_names({"k1", "k2"})),
+          affine("brown", Lens::brown5, same_names({"k1", "k2", "p1", "p2", "k3"})),
           {"fisheye", Lens::fisheye, uniform},
           affine("fisheye_opencv", Lens::fisheye, four),
           affine("fisheye62", Lens::fisheye, more),

@@ -58,6 +58,16 @@ class RecordedJob : public testing::Test {
     return resolve_job(value.dump(), (folder.path() / "job.json").string(), folder.path());
   }
 
+  /// The figures of the job's run.
+  json measured() const {
+    const ResolvedJob resolved = resolve(job());
+    const JobFolder made = JobFolder::create(folder.path() / "out", resolved);
+    simulate_run(made, resolved.spec(), folder.path(), 0);
+    measure_run(made, resolved.spec(), folder.path(), 0);
+    return json::parse(
+        read_file(made.output_of({Task::Kind::measure, 0}) / "files/metrics/run000.json"));
+  }
+
   std::string problem_pointer(const json& value) const {
     try {
       resolve(value);
@@ -149,12 +159,7 @@ TEST_F(RecordedJob, PeopleInBuildingsAndInhumanSpeedsAreInItsCheckItsRunAndItsMe
        check_job(job().dump(), (folder.path() / "job.json").string(), folder.path()).warnings) {
     of_check.push_back(warning.text());
   }
-  const ResolvedJob resolved = resolve(job());
-  const JobFolder made = JobFolder::create(folder.path() / "out", resolved);
-  simulate_run(made, resolved.spec(), folder.path(), 0);
-  measure_run(made, resolved.spec(), folder.path(), 0);
-  const json figures = json::parse(
-      read_file(made.output_of({Task::Kind::measure, 0}) / "files/metrics/run000.json"));
+  const json figures = measured();
   for (const std::vector<std::string>& texts :
        {of_check, figures["warnings"].get<std::vector<std::string>>()}) {
     EXPECT_EQ(mentions(texts, "12 of 12 recorded people inside of buildings"), 1);
@@ -175,12 +180,7 @@ TEST_F(RecordedJob, FindingsAboutItsScenarioAreInItsCheckAndInItsMetrics) {
     texts.push_back(warning.text());
   }
   EXPECT_TRUE(has_finding(texts));
-  const ResolvedJob resolved = resolve(job());
-  const JobFolder made = JobFolder::create(folder.path() / "out", resolved);
-  simulate_run(made, resolved.spec(), folder.path(), 0);
-  measure_run(made, resolved.spec(), folder.path(), 0);
-  const json figures = json::parse(
-      read_file(made.output_of({Task::Kind::measure, 0}) / "files/metrics/run000.json"));
+  const json figures = measured();
   EXPECT_TRUE(has_finding(figures["warnings"])) << figures["warnings"];
 }
 
