@@ -12,6 +12,9 @@ class Machine;
 class Process {
  public:
   virtual ~Process() = default;
+  /// Called once, when all have entered their initial states and before they look where to go; not
+  /// in a crowd that cannot step.
+  virtual void before_start(const Crowd&) {}
   /// Called before the agents decide; `crowd.time_s()` is the time at the start of the step.
   virtual void before_decisions(Crowd&, Machine&) {}
   /// Called after the agents have moved; `crowd.time_s()` is the time at the end of the step.

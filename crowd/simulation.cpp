@@ -74,7 +74,7 @@ Simulation::State::State(const SceneDescription& scene_description,
   if (options.separation == BodySeparation::hard) separation = std::make_unique<Separation>(crowd);
   if (options.physical.on) bodies = std::make_unique<Bodies>(options.physical, count);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
-  machine->start(crowd);
+  machine->start(crowd, options.can_step);
   warnings = scene.warnings();
   warnings.insert(warnings.end(), behavior.warnings().begin(), behavior.warnings().end());
 }
@@ -114,7 +114,10 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-void Simulation::step() { state_->step(); }
+void Simulation::step() {
+  check(state_->options.can_step, "this crowd was loaded for stepping");
+  state_->step();
+}
 
 const std::vector<Problem>& Simulation::warnings() const { return state_->warnings; }
 

@@ -27,6 +27,9 @@ struct LoadOptions {
   ConstantsChoice constants = ConstantsChoice::best;
   double compliance = 1;  ///< multiplies the probability that a person follows a guide
   Physical physical = {};
+  /// False for a crowd whose people are only counted and found where they start: without the meshes
+  /// of their paths, which take most of the time. It faces nowhere, and step() must not be called.
+  bool can_step = true;
 };
 
 /// The goal of an agent: ids of goal set and goal in the behavior file; -1 for goals that a

@@ -18,6 +18,7 @@
 #include "base/files/hash.h"
 #include "base/json/json_describe.h"
 #include "base/json/json_text.h"
+#include "base/schemas/json_schema.h"
 #include "base/version.h"
 #include "formats/card.h"
 #include "formats/dataset/dataset.h"
@@ -107,12 +108,40 @@ void require_alike(const Part& first, const Part& other) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
+/// What the merged dataset takes of a manifest.
+const schemas::JsonSchema& manifest_schema() {
+  static const schemas::JsonSchema schema(parse_json(R"({
+    "type": "object",
+    "required": ["schema_version", "job", "devices", "people", "counts", "runs", "files"],
+    "properties": {
+      "job": {"type": "object", "required": ["name", "outputs"], "properties": {
+        "name": {"type": "string"}, "outputs": {"type": "object"}}},
+      "devices": {"type": "array", "items": {"type": "string"}},
+      "counts": {"type": "object", "required": ["frames", "annotations"], "properties": {
+        "frames": {"type": "integer", "minimum": 0, "maximum": 1000000000},
+        "annotations": {"type": "integer", "minimum": 0, "maximum": 1000000000000},
+        "agents": {"type": "integer", "minimum": 0, "maximum": 1000000000}}},
+      "people": {"type": "object"},
+      "schema_version": {"type": "integer"},
+      "runs": {"type": "array", "minItems": 1, "items": {
+        "type": "object", "required": ["run"], "properties": {
+          "run": {"type": "string"}, "scenario": {"type": "string"}}}},
+      "files": {"type": "array", "items": {
+        "type": "object", "required": ["path", "sha256"], "properties": {
+          "path": {"type": "string", "minLength": 1}, "sha256": {"type": "string"}}}}}})",
+                                                     "manifest"));
+  return schema;
+}
+
 Part read_part(const fs::path& root, std::size_t first_run) {
   if (!fs::is_directory(root)) {
     throw InputError({root.string(), "", fs::exists(root) ? "a file" : "no such folder",
                       "the folder of a finished dataset"});
   }
   Part part{root, read_manifest(root), first_run, {}, {}};
+  const auto problems =
+      manifest_schema().problems(part.manifest, (root / "manifest.json").string());
+  if (!problems.empty()) throw InputError(problems);
   try {
     for (const json& run : part.manifest.at("runs")) part.runs.push_back(run.at("run"));
     const DatasetInfo info =
@@ -211,8 +240,14 @@ class Merger {
     for (const Part& part : parts_) {
       const fs::path file = part.root / "metrics.json";
       json metrics = parse_json(read_file(file), file.string(), kOwnJsonLimits);
-      for (json& run : metrics.at("runs")) {
-        run["run"] = part.new_name(run.at("run"));
+      if (!metrics.is_object() || !metrics.contains("runs") || !metrics["runs"].is_array()) {
+        throw InputError({file.string(), "/runs", "no list", "the metrics that throng wrote"});
+      }
+      for (json& run : metrics["runs"]) {
+        if (!run.is_object() || !run.contains("run") || !run["run"].is_string()) {
+          throw InputError({file.string(), "/runs", describe(run), "a run with its name"});
+        }
+        run["run"] = part.new_name(run["run"]);
         runs.push_back(std::move(run));
       }
     }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -27,21 +27,30 @@ namespace {
                     "a record that throng wrote"});
 }
 
-ordered_json parse_record(const fs::path& file, std::size_t line, std::string_view text) {
+/// Performs a change of records, and refuses those that this program did not write: no JSON, fields
+/// that are missing or of other types. `line` is that of the record when it fails.
+template <typename Change>
+auto refuse_foreign(const fs::path& file, const std::size_t& line, const Change& change) {
   try {
-    return parse_ordered_json(text);
+    return change();
   } catch (const nlohmann::json::exception& error) {
     refuse(file, line, error.what());
   }
 }
 
-bool is_id(std::string_view word) {
-  return !word.empty() && std::all_of(word.begin(), word.end(),
-                                      [](unsigned char c) { return std::isdigit(c) != 0; });
+std::int64_t shifted(std::int64_t id, std::int64_t shift) {
+  std::int64_t sum = 0;
+  if (__builtin_add_overflow(id, shift, &sum)) {
+    throw InputError({"", "", fmt::format("the id {}", id), "an id that others can follow"});
+  }
+  return sum;
 }
 
 std::string shifted_word(std::string_view word, std::int64_t shift) {
-  return is_id(word) ? std::to_string(std::stoll(std::string(word)) + shift) : std::string(word);
+  std::int64_t id = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
+  const bool is_whole = error == std::errc() && end == word.data() + word.size();
+  return is_whole && id >= 0 ? std::to_string(shifted(id, shift)) : std::string(word);
 }
 
 /// A CSV in whose columns of these names are track ids, several in a cell with spaces between them.
@@ -79,17 +88,16 @@ void shift_ids(ordered_json& value, std::int64_t shift) {
   if (value.is_array()) {
     for (ordered_json& id : value) shift_ids(id, shift);
   } else if (value.is_number_integer()) {
-    value = value.get<std::int64_t>() + shift;
+    value = shifted(value.get<std::int64_t>(), shift);
   }
 }
 
-std::string shifted_lines(const fs::path& file, const std::string& text, std::int64_t shift) {
+std::string shifted_lines(const std::string& text, std::size_t& line, std::int64_t shift) {
   std::string result;
-  std::size_t line = 0;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
-    ordered_json record =
-        parse_record(file, ++line, std::string_view(text).substr(start, end - start));
+    ++line;
+    ordered_json record = parse_ordered_json(std::string_view(text).substr(start, end - start));
     if (record.contains("track_id")) shift_ids(record["track_id"], shift);
     result += record.dump() + "\n";
     start = end + 1;
@@ -160,7 +168,7 @@ class Lines {
     ++number_;
     return line;
   }
-  std::size_t number() const { return number_; }
+  const std::size_t& number() const { return number_; }
 
  private:
   fs::path path_;
@@ -193,11 +201,17 @@ std::optional<std::string> with_shifted_tracks(const fs::path& file, const std::
   if (kind == "counts" && ending == ".csv") {
     return shifted_csv(read_file(file), {"entered", "left"}, shift);
   }
-  if (kind == "events") return shifted_lines(file, read_file(file), shift);
+  std::size_t line = 1;
+  if (kind == "events") {
+    line = 0;
+    return refuse_foreign(file, line, [&] { return shifted_lines(read_file(file), line, shift); });
+  }
   if (kind == "trajectories" && ending == ".json") {
-    ordered_json people = parse_record(file, 1, read_file(file));
-    shift_ids(people.at("track_ids"), shift);
-    return people.dump() + "\n";
+    return refuse_foreign(file, line, [&] {
+      ordered_json people = parse_ordered_json(read_file(file));
+      shift_ids(people.at("track_ids"), shift);
+      return people.dump() + "\n";
+    });
   }
   return std::nullopt;
 }
@@ -210,7 +224,8 @@ void join_coco_files(const std::vector<CocoPart>& parts, const std::string& desc
   StagedFile joined(output);
   std::string header;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string own = make_header(lines[i], description);
+    const std::string own = refuse_foreign(parts[i].file, lines[i].number(),
+                                           [&] { return make_header(lines[i], description); });
     if (i == 0) header = own;
     if (own != header) refuse(parts[i].file, 1, "other categories than the first dataset's");
   }
@@ -225,11 +240,14 @@ void join_coco_files(const std::vector<CocoPart>& parts, const std::string& desc
       const NewIds ids(parts[i], image_shift[i]);
       for (std::string line = lines[i].next(); !line.starts_with(']'); line = lines[i].next()) {
         if (line.ends_with(',')) line.pop_back();
-        ordered_json record = parse_record(parts[i].file, lines[i].number(), line);
-        ids.rename(list, record);
-        if (list == "images") max_image = std::max(max_image, record["id"].get<std::int64_t>());
+        const std::string renamed = refuse_foreign(parts[i].file, lines[i].number(), [&] {
+          ordered_json record = parse_ordered_json(line);
+          ids.rename(list, record);
+          if (list == "images") max_image = std::max(max_image, record["id"].get<std::int64_t>());
+          return record.dump();
+        });
         joined.write(before);
-        joined.write(record.dump());
+        joined.write(renamed);
         before = ",\n";
       }
       if (list != kLists.back()) lines[i].next();  // the beginning of the next list

@@ -58,8 +58,10 @@ std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
   return spec.compat == crowd::Compat::none ? "ttc" : "orca";
 }
 
-crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
-                             const CrowdSpec& spec) {
+namespace {
+
+crowd::Simulation load(const world::Scenario& scenario, std::uint64_t seed, const CrowdSpec& spec,
+                       bool can_step) {
   const crowd::CrowdDescription description = world::build_crowd(scenario);
   crowd::LoadOptions options;
   options.seed = seed;
@@ -69,7 +71,20 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
   options.constants = spec.constants;
   options.compliance = spec.compliance;
   options.physical = spec.physical;
+  options.can_step = can_step;
   return {description.scene, description.behavior, options};
+}
+
+}  // namespace
+
+crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
+                             const CrowdSpec& spec) {
+  return load(scenario, seed, spec, true);
+}
+
+crowd::Simulation load_people(const world::Scenario& scenario, std::uint64_t seed,
+                              const CrowdSpec& spec) {
+  return load(scenario, seed, spec, false);
 }
 
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,

@@ -24,6 +24,9 @@ std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec);
 /// Loads the crowd of a run in its initial state. Throws as crowd::Simulation's constructor.
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
                              const CrowdSpec& spec);
+/// The same people, to be counted and found where they start (crowd::LoadOptions::can_step).
+crowd::Simulation load_people(const world::Scenario& scenario, std::uint64_t seed,
+                              const CrowdSpec& spec);
 
 /// Receives the simulated seconds so far and in total.
 using RunProgress = std::function<void(double done_s, double total_s)>;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -222,7 +223,14 @@ json parse_json_or_discard(std::string_view text, const JsonLimits& limits) {
 }
 
 nlohmann::ordered_json parse_ordered_json(std::string_view text) {
-  return nlohmann::ordered_json::parse(text);
+  // Values are printed recursively.
+  const auto is_shallow = [](int depth, auto, const auto&) {
+    if (std::cmp_greater(depth, JsonLimits{}.max_depth)) {
+      throw nlohmann::json::other_error::create(501, "too many levels of nesting", nullptr);
+    }
+    return true;
+  };
+  return nlohmann::ordered_json::parse(text, is_shallow);
 }
 
 bool is_own_json(std::string_view text) { return json::accept(text); }

@@ -42,7 +42,8 @@ nlohmann::json parse_own_json(std::string_view text, const std::string& what);
 /// Parses a document, or returns a discarded value (is_discarded()) if parse_json() would throw.
 nlohmann::json parse_json_or_discard(std::string_view text, const JsonLimits& limits = {});
 
-/// Parses text that is embedded in this program and keeps the order of keys.
+/// Parses text that this program wrote and keeps the order of keys. Throws nlohmann's exceptions,
+/// also for more than 64 levels of nesting.
 nlohmann::ordered_json parse_ordered_json(std::string_view text);
 
 /// Whether text written by this program is valid JSON; creates no value.

@@ -13,8 +13,9 @@ class Machine {
  public:
   explicit Machine(Behavior behavior, std::size_t agent_count);
 
-  /// Puts each present agent into its initial state and makes it face its preferred direction.
-  void start(Crowd& crowd);
+  /// Puts each present agent into its initial state and, if it `can_step`, makes it face its
+  /// preferred direction.
+  void start(Crowd& crowd, bool can_step);
 
   /// Takes all transitions whose conditions hold. The first conditions are evaluated for all agents
   /// in the same state of the crowd; then agents change states in the order of their ids, because

@@ -47,6 +47,19 @@ AutoNavigation::AutoNavigation(const Crowd& crowd, const WalkableMeshOptions& op
 }
 
 void AutoNavigation::enter(const Crowd& crowd, std::size_t agent) {
+  if (has_begun_) {
+    set_out(crowd, agent);
+  } else {
+    waiting_.push_back(agent);
+  }
+}
+
+void AutoNavigation::begin(const Crowd& crowd) {
+  has_begun_ = true;
+  for (const std::size_t agent : std::exchange(waiting_, {})) set_out(crowd, agent);
+}
+
+void AutoNavigation::set_out(const Crowd& crowd, std::size_t agent) {
   if (agent >= routes_.size()) routes_.resize(std::max(crowd.agents.count(), agent + 1));
   Route& route = routes_[agent];
   route.known = false;
@@ -393,6 +406,7 @@ class Observation : public Process {
  public:
   explicit Observation(std::shared_ptr<AutoNavigation> navigation)
       : navigation_(std::move(navigation)) {}
+  void before_start(const Crowd& crowd) override { navigation_->begin(crowd); }
   void before_decisions(Crowd& crowd, Machine&) override { navigation_->observe(crowd); }
 
  private:

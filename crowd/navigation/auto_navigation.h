@@ -21,7 +21,7 @@ namespace throng::crowd {
 
 /// The paths of all agents that navigate automatically, in all states. Agents of similar radius
 /// that avoid the same classes of obstacles share a mesh, which is created when the first of them
-/// enters such a state (usually while the scene is loaded). The radius of a mesh is rounded up to
+/// enters such a state (usually when the scene has been loaded). The radius of a mesh is rounded up to
 /// centimeters and is at most 1.25 times that of its smallest agent.
 ///
 /// An agent walks along the bends of the shortest path; in a crowd it keeps its distance from the
@@ -39,6 +39,8 @@ class AutoNavigation {
   AutoNavigation(const Crowd& crowd, const WalkableMeshOptions& options);
 
   void enter(const Crowd& crowd, std::size_t agent);  ///< called when the goal changes
+  /// Creates the meshes for all who have entered so far; called once, before prefer().
+  void begin(const Crowd& crowd);
   /// Looks where everybody is, for those who keep lanes in a crowd; called once per step.
   void observe(const Crowd& crowd);
   void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred);
@@ -101,6 +103,7 @@ class AutoNavigation {
     std::array<Eigen::Vector2f, kMaxBends> bends{};
   };
 
+  void set_out(const Crowd& crowd, std::size_t agent);
   int ground_for(const Crowd& crowd, std::size_t agent);
   static bool fits(float agent_radius, float mesh_radius);
   float mesh_radius(const Crowd& crowd, std::size_t agent) const;
@@ -125,6 +128,8 @@ class AutoNavigation {
   std::uint32_t all_classes_ = 0;
   std::vector<std::unique_ptr<Ground>> grounds_;
   std::vector<Route> routes_;  // indexed by agent
+  bool has_begun_ = false;
+  std::vector<std::size_t> waiting_;  // agents who have entered before begin()
   Congestion congestion_;
   std::vector<std::pair<Ground*, SharedField*>> stale_;  // buffer
   Grid everywhere_;                                      // everybody's place, not older than a look

@@ -45,16 +45,20 @@ FloatMap read_npy(const std::filesystem::path& path) {
   }
   const std::size_t length = static_cast<unsigned char>(bytes[8]) |
                              static_cast<std::size_t>(static_cast<unsigned char>(bytes[9])) << 8;
+  constexpr std::size_t kMaxHeader = 1000;  // regular expressions are matched recursively
+  if (length > kMaxHeader) throw refuse("another header");
   const std::string header = bytes.substr(kPreamble, length);
   static const std::regex kHeader(
       R"(\{'descr': '<f4', 'fortran_order': False, 'shape': \((\d{1,6}), (\d{1,6})\), \}\s*)");
   std::smatch match;
   if (!std::regex_match(header, match, kHeader)) throw refuse("another header");
   FloatMap map{std::stoi(match[2]), std::stoi(match[1]), {}};
-  map.value.resize(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
-  if (bytes.size() != kPreamble + length + map.value.size() * sizeof(float)) {
+  const std::size_t values =
+      static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
+  if (bytes.size() != kPreamble + length + values * sizeof(float)) {
     throw refuse("a file of another length");
   }
+  map.value.resize(values);
   std::memcpy(map.value.data(), bytes.data() + kPreamble + length,
               map.value.size() * sizeof(float));
   return map;

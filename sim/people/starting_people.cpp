@@ -39,10 +39,11 @@ std::vector<Eigen::Vector2d> StartingPeople::places() const {
 }
 
 StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& spec,
-                               std::vector<Problem>& problems) {
+                               std::vector<Problem>& problems, bool can_step) {
   StartingPeople people;
+  const auto load = can_step ? &load_crowd : &load_people;
   people.crowd = spec.recorded ? replayed(spec.recorded, spec.seed)
-                               : simulated(load_crowd(scenario, spec.seed, spec.crowd));
+                               : simulated(load(scenario, spec.seed, spec.crowd));
   people.roles = roles_at_start(scenario, spec, *people.crowd, problems);
   for (std::size_t i = 0; i < people.roles.size(); ++i) {
     people.crowd->set_present(i, people.roles[i] != world::AgentRole::absent);

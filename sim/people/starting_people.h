@@ -23,8 +23,9 @@ struct StartingPeople {
 };
 
 /// Loads the crowd or the recording of a run and chooses its participants. Adds the problems of
-/// choose_roles() to `problems`. Throws InputError if the crowd cannot be loaded.
+/// choose_roles() to `problems`. Throws InputError if the crowd cannot be loaded. Without
+/// `can_step` it is load_people() whose crowd is loaded.
 StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& spec,
-                               std::vector<Problem>& problems);
+                               std::vector<Problem>& problems, bool can_step = true);
 
 }  // namespace throng::sim

@@ -139,7 +139,7 @@ void aim_drones(const world::Scenario& scenario, const std::vector<Vector2d>& pe
 std::vector<Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run) {
   if (std::none_of(run.drones.begin(), run.drones.end(), has_aim)) return {};
   std::vector<Problem> of_people;  // the simulation reports them
-  return starting_people(scenario, run, of_people).places();
+  return starting_people(scenario, run, of_people, false).places();
 }
 
 std::vector<DroneMission> aimed_missions(const world::Scenario& scenario, const RunSpec& run,

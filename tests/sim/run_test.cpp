@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
 using throng::testing::TemporaryFolder;
 using world::AgentRole;
 
@@ -445,6 +446,20 @@ TEST(Run, PhysicalPeopleFallWhenADroneHitsThemHard) {
       ASSERT_EQ(physical.position[physical.at(later, agent)],
                 physical.position[physical.at(step, agent)]);
     }
+  }
+}
+
+TEST(LoadPeople, AreThoseWhoRunAndHaveNoPathsYet) {
+  for (const char* id : {"city_square/nearest_exit", "shopping_street/emergency"}) {
+    const auto scenario = scenarios::find_scenario(source_folder() / "scenarios", id);
+    const crowd::Simulation people = load_people(scenario, 7, {});
+    const crowd::Simulation running = load_crowd(scenario, 7, {});
+    EXPECT_THAT(people.positions(), ElementsAreArray(running.positions())) << id;
+    EXPECT_THAT(people.present(), ElementsAreArray(running.present())) << id;
+    EXPECT_THAT(people.desired_speeds_mps(), ElementsAreArray(running.desired_speeds_mps())) << id;
+    EXPECT_EQ(people.state_names(), running.state_names());
+    const auto is_undirected = [](float yaw_rad) { return yaw_rad == 0; };
+    EXPECT_TRUE(std::ranges::all_of(people.yaws_rad(), is_undirected)) << id;
   }
 }
 

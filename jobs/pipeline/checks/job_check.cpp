@@ -106,7 +106,7 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
   } else {
     const std::set<int> hazards(scenario.disaster_agents.begin(), scenario.disaster_agents.end());
     const crowd::Simulation simulation =
-        sim::load_crowd(scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
+        sim::load_people(scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
     checked.expected.people = static_cast<std::int64_t>(simulation.agent_count() - hazards.size());
     crowd = starting_crowd(job, simulation, hazards);
   }

@@ -234,7 +234,7 @@ void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
       missions.begin(), missions.end(),
       [&](const sim::DroneMission& mission) { return sim::has_own_goal(mission, scenario); });
   if (!job.agents && !moves_goals) return;
-  crowd::Simulation crowd = sim::load_crowd(scenario, job.seed, job.crowd);
+  crowd::Simulation crowd = sim::load_people(scenario, job.seed, job.crowd);
   if (moves_goals) sim::check_moved_goals(missions, crowd, problems);
   if (!job.agents) return;
   sim::choose_roles(scenario.id, scenario.disaster_agents, crowd.agent_count(), job.agents,
@@ -246,7 +246,7 @@ void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
 int count_people(const JobSpec& job, const world::Scenario& scenario) {
   if (job.agents || job.recorded || is_of_trace(scenario)) return 0;
   try {
-    return static_cast<int>(sim::load_crowd(scenario, job.seed, job.crowd).agent_count());
+    return static_cast<int>(sim::load_people(scenario, job.seed, job.crowd).agent_count());
   } catch (const InputError&) {
     return 0;
   }

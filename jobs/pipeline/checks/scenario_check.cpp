@@ -79,7 +79,7 @@ CheckedScenarios check_scenarios(const fs::path& folder) {
     if (!findings.has_done(load)) continue;
     const auto load_people = [&] {
       // A place for recorded people has no crowd of its own.
-      if (scenario.has_crowd()) static_cast<void>(sim::load_crowd(scenario, 1, {}));
+      if (scenario.has_crowd()) static_cast<void>(sim::load_people(scenario, 1, {}));
     };
     if (findings.has_done(load_people)) {
       for (scenarios::Finding& finding :

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <fstream>
 
 #include "base/error.h"
@@ -65,8 +66,13 @@ void from_json(const json& value, FileEntry& file) {
   file = {value.at("path"), value.at("bytes"), value.at("sha256")};
   if (value.contains("crc32")) {
     constexpr int kHex = 16;
-    file.crc32 =
-        static_cast<std::uint32_t>(std::stoul(value.at("crc32").get<std::string>(), nullptr, kHex));
+    const std::string text = value.at("crc32");
+    std::uint32_t crc32 = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), crc32, kHex);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      throw json::other_error::create(501, "crc32 is no hexadecimal number of 32 bits", &value);
+    }
+    file.crc32 = crc32;
   }
 }
 

@@ -70,7 +70,8 @@ TEST(FieldTable, ReadsValidValues) {
 TEST(FieldTable, CountsCharactersOfTexts) {
   EXPECT_THAT(read(R"({"name": "äöüßéèàâ"})").texts, ElementsAre());
   EXPECT_THAT(read(R"({"name": "äöüßéèàâx"})").texts,
-              ElementsAre(::testing::HasSubstr("expected a text of 1 to 8 characters")));
+              ElementsAre(::testing::HasSubstr(
+                  "expected a text of 1 to 8 characters without control characters")));
 }
 
 TEST(FieldTable, NamesEveryMistakeAtOnceAndReadsTheRest) {

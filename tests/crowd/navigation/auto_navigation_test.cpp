@@ -159,6 +159,7 @@ TEST(AutoNavigation, SharesMeshesAmongPeopleOfSimilarSize) {
   }
   crowd.obstacles.build();
   AutoNavigation navigation(crowd, {});
+  navigation.begin(crowd);
   // People arrive one by one; later they learn one by one of the second and the third wall.
   constexpr std::size_t kPeople = 100;
   Random random(7, Stream::crowd_profile, 0);
