@@ -70,8 +70,7 @@ TEST(FieldTable, ReadsValidValues) {
 TEST(FieldTable, CountsCharactersOfTexts) {
   EXPECT_THAT(read(R"({"name": "äöüßéèàâ"})").texts, ElementsAre());
   EXPECT_THAT(read(R"({"name": "äöüßéèàâx"})").texts,
-              ElementsAre(::testing::HasSubstr(
-                  "expected a text of 1 to 8 characters without control characters")));
+              ElementsAre(::testing::HasSubstr("expected a text of 1 to 8 characters")));
 }
 
 TEST(FieldTable, NamesEveryMistakeAtOnceAndReadsTheRest) {
@@ -88,7 +87,8 @@ TEST(FieldTable, NamesEveryMistakeAtOnceAndReadsTheRest) {
           R"(lamp.json: /lamps/0/count: found 2.5, expected an integer from 1 to 9)",
           R"(lamp.json: /lamps/0/on: found 1, expected true or false)",
           R"(lamp.json: /lamps/0/list: found [], expected an array of 1 to 3 items)",
-          R"(lamp.json: /lamps/0/name: found nothing, expected a text of 1 to 8 characters)",
+          R"(lamp.json: /lamps/0/name: found nothing, expected a text of 1 to 8 characters )"
+          "without control characters",
           R"(lamp.json: /lamps/0/nmae: unknown field "nmae"; did you mean "name"?)"));
   EXPECT_EQ(outcome.lamp.height_m, 4) << "as it was";
   EXPECT_EQ(read(R"({"kind": "house", "count": 10, "name": "a"})").lamp.kind, "house");
