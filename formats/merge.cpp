@@ -108,7 +108,7 @@ void require_alike(const Part& first, const Part& other) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-/// What the merged dataset takes of a manifest.
+/// The fields of a manifest that the merged dataset needs.
 const schemas::JsonSchema& manifest_schema() {
   static const schemas::JsonSchema schema(parse_json(R"({
     "type": "object",

@@ -12,7 +12,7 @@ module that it does not include, and none after it in THRONG_ALL_MODULES. A publ
 outside of the module, unless the module is in THRONG_LIBRARY_MODULES. A module is not linked with what it REFUSES, be it
 through others.
 
-What reads datasets of others opens files by base/files/untrusted_folders.h only, which follows no links.
+Readers of other people's datasets open files by base/files/untrusted_folders.h only, which follows no links.
 
 A module declares all folders in it by throng_folder(), its own one ("."), too. A file in one may include its own folder,
 the module's own (the interface, and what all share) and those that the folder USES, which precede it.

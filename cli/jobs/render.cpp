@@ -11,6 +11,7 @@
 #include "cli/shell/trace_file.h"
 #include "jobs/pipeline/checks/resolve.h"
 #include "jobs/queue/dataset/folder.h"
+#include "jobs/queue/trace_seal.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/job/spec.h"
 #include "world/trace.h"
@@ -82,6 +83,7 @@ void render(const RenderArguments& arguments) {
   const auto folder = jobs::JobFolder::create(arguments.output, one_run);
   const auto place = folder.output_of({jobs::Task::Kind::simulate, 0, 0});
   write_file_atomically(place, read_file(arguments.trace_file));
+  jobs::seal_trace(place);
   finish_job(folder, one_run, arguments);
 }
 

@@ -14,8 +14,7 @@ void seal_trace(const std::filesystem::path& trace);
 /// EnvironmentError.
 std::string sealed_hash(const std::filesystem::path& trace);
 
-/// Removes a trace and its seal if they do not match; keeps a trace without a seal. Throws
-/// EnvironmentError.
+/// Removes a trace without its seal, or with one that does not match. Throws EnvironmentError.
 void remove_if_damaged(const std::filesystem::path& trace);
 
 }  // namespace throng::jobs
