@@ -461,6 +461,11 @@ export interface Key {
   id: string;
   name: string;
   scope: "read" | "submit" | "admin";
+  /** In the answer to its revocation: what the key had under way, which was cancelled. */
+  ended?: {
+    jobs: number;
+    live_flights: number;
+  };
   /** Maximum number of jobs that wait or run at once; null: any number. */
   max_jobs: number | null;
   /** Maximum disk space of all the key's jobs; null: any. */
