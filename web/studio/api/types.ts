@@ -461,6 +461,11 @@ export interface Key {
   id: string;
   name: string;
   scope: "read" | "submit" | "admin";
+  /** In the answer to its revocation: what the key had under way, which was cancelled. */
+  ended?: {
+    jobs: number;
+    live_flights: number;
+  };
   /** Maximum number of jobs that wait or run at once; null: any number. */
   max_jobs: number | null;
   /** Maximum disk space of all the key's jobs; null: any. */
@@ -470,6 +475,8 @@ export interface Key {
   created_at: string | null;
   /** Time when the key was revoked; null: it is valid. */
   revoked_at: string | null;
+  /** Time from which on callers with the key get 401; null: never. */
+  expires_at: string | null;
   /** The key itself, which callers send; only in the answer to its creation. */
   key?: string;
   links: Record<string, string>;
