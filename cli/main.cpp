@@ -17,14 +17,14 @@ namespace cli = throng::cli;
 using throng::InputError;
 
 constexpr std::array kCommands = {
-    cli::add_run,         cli::add_check,     cli::add_simulate,       cli::add_live,
-    cli::add_render,      cli::add_crowd,     cli::add_serve,          cli::add_keys,
-    cli::add_remote_jobs, cli::add_worker,    cli::add_confined,       cli::add_live_process,
-    cli::add_people,      cli::add_scenarios, cli::add_scenario,       cli::add_airframes,
-    cli::add_study,       cli::add_schema,    cli::add_export,         cli::add_merge,
-    cli::add_publish,     cli::add_validate,  cli::add_validate_crowd, cli::add_metrics,
-    cli::add_report,      cli::add_calibrate, cli::add_remote_studies, cli::add_completion,
-    cli::add_manual};
+    cli::add_run,          cli::add_check,       cli::add_simulate,  cli::add_live,
+    cli::add_render,       cli::add_crowd,       cli::add_serve,     cli::add_keys,
+    cli::add_backup,       cli::add_remote_jobs, cli::add_worker,    cli::add_confined,
+    cli::add_live_process, cli::add_people,      cli::add_scenarios, cli::add_scenario,
+    cli::add_airframes,    cli::add_study,       cli::add_schema,    cli::add_export,
+    cli::add_merge,        cli::add_publish,     cli::add_validate,  cli::add_validate_crowd,
+    cli::add_metrics,      cli::add_report,      cli::add_calibrate, cli::add_remote_studies,
+    cli::add_completion,   cli::add_manual};
 
 int run(int argc, char** argv) {
   CLI::App app{"Synthetic crowd datasets: simulate a crowd and drones, render, annotate."};

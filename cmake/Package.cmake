@@ -23,8 +23,10 @@ include(CPack)
 
 if(TARGET throng)
   install(FILES "${PROJECT_SOURCE_DIR}/NOTICE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+    "${PROJECT_SOURCE_DIR}/SECURITY.md"
     DESTINATION share/doc/throng COMPONENT program)
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION share/doc/throng RENAME copyright COMPONENT program)
+  install(FILES "${PROJECT_SOURCE_DIR}/deploy/throng.service" DESTINATION lib/systemd/system COMPONENT program)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION share/doc/throng COMPONENT program)
 endif()
 

@@ -1,7 +1,6 @@
 #include "server/serve.h"
 
 #include <fmt/core.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -34,7 +33,7 @@
 #include "server/access/keys.h"
 #include "server/api/api.h"
 #include "server/api/service.h"
-#include "server/json_log.h"
+#include "server/service_log.h"
 #include "server/webhooks/webhook_sender.h"
 
 namespace throng::server {
@@ -45,28 +44,26 @@ namespace {
 
 constexpr double kMaxTaskS = 6 * 3600;  // a task is a simulation or a part of its frames
 
-sigset_t ending_signals() {
+/// The signals that the service waits for. None of them ends it by the kernel's default action.
+sigset_t awaited_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGINT);
-  // Under nohup a terminal that closes is no reason to end.
-  struct sigaction hangup {};
-  sigaction(SIGHUP, nullptr, &hangup);
-  if (hangup.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2}) sigaddset(&signals, signal);
   return signals;
 }
 
-// Calls `action` in a thread of its own when the process is asked to end. As process 1 of a
+// Calls `action` in a thread of its own for each signal until it returns false. As process 1 of a
 // container there is no default action for SIGTERM, so somebody has to wait for it.
 class SignalWatch {
  public:
-  explicit SignalWatch(std::function<void()> action)
+  explicit SignalWatch(std::function<bool(int signal)> action)
       : thread_([action = std::move(action)](const std::stop_token& stop) {
-          const sigset_t signals = ending_signals();
-          while (sigwaitinfo(&signals, nullptr) < 0) {
+          const sigset_t signals = awaited_signals();
+          while (true) {
+            const int signal = sigwaitinfo(&signals, nullptr);
+            if (signal < 0) continue;
+            if (stop.stop_requested() || !action(signal)) return;
           }
-          if (!stop.stop_requested()) action();
         }) {}
   ~SignalWatch() {
     thread_.request_stop();
@@ -78,19 +75,6 @@ class SignalWatch {
  private:
   std::jthread thread_;
 };
-
-// A line per message; as JSON for log collectors. Ids and events are logged, never keys, bodies or
-// headers. Runtimes of containers collect standard output.
-void set_up_log(bool as_json, bool to_stdout) {
-  const auto logger =
-      to_stdout ? spdlog::stdout_logger_mt("throng") : spdlog::stderr_logger_mt("throng");
-  if (as_json) {
-    logger->set_formatter(std::make_unique<JsonLogFormatter>());
-  } else {
-    logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc);
-  }
-  spdlog::set_default_logger(logger);
-}
 
 std::int64_t memory_for_workers_mib(const ServeOptions& options) {
   constexpr std::int64_t kParts = 8;
@@ -114,14 +98,16 @@ std::optional<jobs::FolderLock> lock_of_data(const ServeOptions& options) {
   return std::optional<jobs::FolderLock>(std::in_place, options.data, "lock", "data folder");
 }
 
-std::unique_ptr<jobs::Executor> made_executor(const ServeOptions& options) {
+std::unique_ptr<jobs::Executor> made_executor(const ServeOptions& options,
+                                              std::shared_ptr<jobs::TaskMeters> meters) {
   jobs::ExecutorOptions wanted{.name = options.executor,
                                .local = {.workers = options.workers,
                                          .memory_mib = memory_for_workers_mib(options),
                                          .waits_for_memory = true,
                                          .max_task_s = options.max_task_s.value_or(kMaxTaskS),
                                          .worker_memory_mib = options.worker_memory_mib,
-                                         .limits_by_need = true},
+                                         .limits_by_need = true,
+                                         .meters = std::move(meters)},
                                .slurm = options.slurm};
   wanted.slurm.at_once = options.workers;
   wanted.slurm.max_task_s = options.max_task_s.value_or(0);
@@ -200,6 +186,9 @@ int serve(const ServeOptions& options) {
   // included.
   constexpr mode_t kNotForOthers = 0077;
   ::umask(kNotForOthers);
+  const sigset_t signals = awaited_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGHUP, SIG_DFL);  // nohup has it ignored; blocked, it reopens the log
   check_folders(options);
   const fs::path database = options.database.empty() ? options.data : options.database;
   Keys keys(database);
@@ -211,21 +200,20 @@ int serve(const ServeOptions& options) {
   jobs::protect_this_process();
   const bool is_container = is_in_container();
   const bool logs_json = options.log_json || (is_container && ::isatty(STDOUT_FILENO) == 0);
-  set_up_log(logs_json, is_container);
+  set_up_log(logs_json, is_container, options.log_file);
   std::signal(SIGPIPE, SIG_IGN);
   rlimit files{};  // each connection is one, and each file that is sent
   if (::getrlimit(RLIMIT_NOFILE, &files) == 0) {
     files.rlim_cur = files.rlim_max;
     ::setrlimit(RLIMIT_NOFILE, &files);
   }
-  const sigset_t signals = ending_signals();
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   if (::geteuid() == 0) {
     spdlog::warn("the service runs as root, and so do its workers: a user of its own is safer");
   }
   set_environment(options.data, database);
   const std::optional<jobs::FolderLock> lock = lock_of_data(options);
-  const std::unique_ptr<jobs::Executor> executor = made_executor(options);
+  const auto meters = std::make_shared<jobs::TaskMeters>();
+  const std::unique_ptr<jobs::Executor> executor = made_executor(options, meters);
   const auto checks =
       std::make_shared<jobs::ForkServer>(std::vector<std::string>{"/proc/self/exe", "confined"});
   constexpr int kMibShift = 20;
@@ -243,7 +231,10 @@ int serve(const ServeOptions& options) {
        .max_task_mib = max_task_mib(options),
        .publish_to = std::move(publish_to),
        .live = {.unseen = std::chrono::milliseconds(std::lround(1000 * options.live_timeout_s)),
-                .min_free_mib = options.min_free_mib}},
+                .min_free_mib = options.min_free_mib},
+       .drain = {std::chrono::milliseconds(std::lround(1000 * options.drain_timeout_s)),
+                 [] { ::kill(::getpid(), SIGTERM); }},
+       .tasks = meters},
       *executor);
   WebhookSender hooks(service.queue(), database,
                       {.post = {.allow_private = options.webhook_private}});
@@ -252,13 +243,18 @@ int serve(const ServeOptions& options) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
   }
   service.reserve().started();
-  announce(service_url(options.host, api.port()), logs_json && is_container);
-  const SignalWatch watch([&] {
+  announce(service_url(options.host, api.port()),
+           logs_json && is_container && options.log_file.empty());
+  const SignalWatch watch([&](int signal) {
+    if (signal == SIGHUP || signal == SIGUSR1) reopen_log();
+    if (signal == SIGUSR2) service.drain().begin();
+    if (signal != SIGTERM && signal != SIGINT) return true;
     spdlog::info("ending");
     executor->leave_tasks();
     checks->stop();  // requests that wait for one get their answer
     hooks.stop();    // also a ping that a request waits for
     api.stop();
+    return false;
   });
   api.run();
   return 0;

@@ -37,10 +37,13 @@ struct ServeOptions {
   std::vector<std::string> publish_to;  ///< prefixes of addresses to which jobs may publish
   bool webhook_private = false;         ///< permits webhooks to addresses that are not public
   bool log_json = false;                ///< writes the log as JSON lines
+  std::filesystem::path log_file;       ///< file of the log; "": stderr, in a container stdout
+  double drain_timeout_s = 300;         ///< max wait for running tasks when the service drains
 };
 
 /// Prints "throng serving on URL" and serves until SIGTERM or SIGINT, then ends the workers and
-/// returns 0; unfinished jobs continue at the next start. Throws InputError for an address other
+/// returns 0; unfinished jobs continue at the next start. SIGUSR2 drains (server/jobs/drain.h),
+/// SIGHUP and SIGUSR1 reopen the log. Throws InputError for an address other
 /// than loopback without a key, and EnvironmentError if the port or the data folder is in use. Call
 /// it before any other thread is started, because it blocks signals for all threads.
 int serve(const ServeOptions& options);

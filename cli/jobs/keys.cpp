@@ -7,9 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "cli/shell/commands.h"
+#include "server/access/expiry.h"
 
 namespace throng::cli {
 
@@ -23,17 +25,19 @@ std::string format_day(std::int64_t unix_ms) {
 }
 
 void print_keys(const std::vector<server::KeyRow>& keys) {
-  fmt::print("{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{}\n", "id", "scope", "max jobs",
-             "max GiB", "priority", "made", "revoked", "name");
+  fmt::print("{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{:<12}{}\n", "id", "scope", "max jobs",
+             "max GiB", "priority", "made", "expires", "revoked", "name");
   for (const server::KeyRow& key : keys) {
     const int max_priority =
         key.scope >= server::Scope::admin ? server::kMaxPriority : key.max_priority;
-    fmt::print("{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{}\n", key.id,
-               server::to_string(key.scope),
-               key.max_active == 0 ? "any" : std::to_string(key.max_active),
-               key.max_bytes == 0 ? "any" : std::to_string(key.max_bytes >> kGibShift),
-               max_priority, format_day(key.created_ms),
-               key.revoked_ms == 0 ? "" : format_day(key.revoked_ms), key.name);
+    const auto day = [](std::int64_t unix_ms) {
+      return unix_ms == 0 ? std::string() : format_day(unix_ms);
+    };
+    fmt::print(
+        "{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{:<12}{}\n", key.id,
+        server::to_string(key.scope), key.max_active == 0 ? "any" : std::to_string(key.max_active),
+        key.max_bytes == 0 ? "any" : std::to_string(key.max_bytes >> kGibShift), max_priority,
+        format_day(key.created_ms), day(key.expires_ms), day(key.revoked_ms), key.name);
   }
 }
 
@@ -72,8 +76,17 @@ void add_keys(CLI::App& app) {
                    "Highest priority of their jobs; administrators may give any")
       ->check(CLI::Range(-server::kMaxPriority, server::kMaxPriority))
       ->capture_default_str();
+  const auto expires = std::make_shared<std::string>();
+  create->add_option("--expires", *expires,
+                     "When it expires: a date or time in UTC (2027-01-31, 2027-01-31T12:00:00Z), "
+                     "or how long from now (30d, 12h, 2w); its jobs then go on");
   add_data(create);
   create->callback([=] {
+    const auto expires_ms =
+        expires->empty() ? std::optional<std::int64_t>(0) : server::parse_expiry(*expires);
+    if (!expires_ms) {
+      throw InputError(Problem{"throng keys create", "--expires", *expires, server::kExpiryRule});
+    }
     if (!server::is_key_name(*name)) {
       throw InputError(Problem{
           "throng keys create", "name",
@@ -82,7 +95,7 @@ void add_keys(CLI::App& app) {
     }
     fmt::print("{}\n", server::Keys(*data).create(*name, *server::scope_named(*scope), *max_jobs,
                                                   static_cast<std::int64_t>(*max_gib) << kGibShift,
-                                                  *max_priority));
+                                                  *max_priority, *expires_ms));
   });
 
   auto* list = command->add_subcommand("list", "List the keys");

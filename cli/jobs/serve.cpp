@@ -49,6 +49,12 @@ void add_limit_options(CLI::App& command, server::ServeOptions& options) {
           "Slurm that of the partition)")
       ->check(CLI::NonNegativeNumber);
   command
+      .add_option("--drain-timeout", options.drain_timeout_s,
+                  "Seconds that running tasks may take when the service drains (SIGUSR2, throng "
+                  "drain); tasks that are ended start again after the next start")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
       .add_option("--worker-memory", options.worker_memory_mib,
                   "Max MiB of address space per worker (0: by what its task needs)")
       ->check(CLI::NonNegativeNumber);
@@ -91,6 +97,9 @@ void add_serve(CLI::App& app) {
   command->add_flag("--webhook-private", options->webhook_private,
                     "Let webhooks call addresses that are not public (this machine, its network)");
   command->add_flag("--log-json", options->log_json, "Log lines as JSON");
+  command->add_option("--log", options->log_file,
+                      "File of the log, which SIGHUP and SIGUSR1 open again after it was renamed "
+                      "(default: stderr, in a container stdout)");
   command->add_flag(
       "--insecure", options->insecure,
       "Listen on addresses that other machines can reach while there are no keys: anyone who "

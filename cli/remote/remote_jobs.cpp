@@ -336,6 +336,14 @@ void add_remote_jobs(CLI::App& app) {
   show_logs->add_option("name", *name, "Name of a log; default: list the names");
   show_logs->callback([id, name] { logs(*id, *name); });
   add_fetch(app);
+  app.add_subcommand("drain",
+                     "End the service at $THRONG_URL once its running tasks have finished; jobs go "
+                     "on at its next start (administrators)")
+      ->callback([] {
+        ApiClient api;
+        api.post("/v1/service/drain");
+        fmt::print("{} ends when no task runs\n", api.url());
+      });
 }
 
 }  // namespace throng::cli

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import datetime
 import os
 import ssl
 import time
@@ -244,9 +245,13 @@ class CatalogClient:
         max_jobs: int | None = None,
         max_bytes: int | None = None,
         max_priority: int = 0,
+        expires_at: str | datetime.datetime | None = None,
     ) -> Key:
-        """Makes a key; `key` of the answer is what callers send, and is shown once."""
-        limits = {"max_jobs": max_jobs, "max_bytes": max_bytes, "max_priority": max_priority}
+        """Makes a key; `key` of the answer is what callers send, and is shown once. It expires at a time with a zone, or
+        a date, or after a duration ("30d", "12h", "2w"); what it has queued then goes on."""
+        if isinstance(expires_at, datetime.datetime):
+            expires_at = expires_at.isoformat()
+        limits = {"max_jobs": max_jobs, "max_bytes": max_bytes, "max_priority": max_priority, "expires_at": expires_at}
         return self._send("POST", "/v1/keys", {"name": name, "scope": scope, **limits})
 
     def keys(self) -> list[Key]:
@@ -324,6 +329,10 @@ class CatalogClient:
 
     def openapi(self) -> Any:
         return self._get("/openapi.json")
+
+    def drain(self) -> None:
+        """Has the service end once its running tasks have finished (administrators); jobs go on at its next start."""
+        self._send("POST", "/v1/service/drain")
 
     def prometheus(self) -> str:
         """Figures of the service in Prometheus' text format."""

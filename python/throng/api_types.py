@@ -637,6 +637,8 @@ class Key(TypedDict):
     created_at: str | None
     revoked_at: str | None
     """Time when the key was revoked; null: it is valid."""
+    expires_at: str | None
+    """Time from which on callers with the key get 401; null: never."""
     links: dict[str, str]
     ended: NotRequired[KeyEnded]
     """In the answer to its revocation: what the key had under way, which was cancelled."""
@@ -887,6 +889,7 @@ OPERATIONS = (
     ("POST", "/v1/session"),
     ("GET", "/v1/session"),
     ("DELETE", "/v1/session"),
+    ("POST", "/v1/service/drain"),
     ("GET", "/v1/version"),
     ("GET", "/openapi.json"),
     ("GET", "/metrics"),

@@ -44,9 +44,10 @@ std::string key_in(const std::string& path) {
 void take_key(Keys& keys, const std::string& file) {
   const std::string key = key_in(file);
   const std::optional<KeyRow> known = keys.row_of(key);
-  if (known && known->revoked_ms != 0) {
+  if (known && !keys.caller_of(key)) {
+    const char* why = known->revoked_ms != 0 ? "was revoked" : "has expired";
     throw InputError(
-        Problem{file, "", fmt::format("the key {}, which was revoked", known->id), "another key"});
+        Problem{file, "", fmt::format("the key {}, which {}", known->id, why), "another key"});
   }
   if (!known) keys.add(kName, Scope::admin, key);
 }

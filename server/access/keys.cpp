@@ -5,6 +5,7 @@
 #include <openssl/crypto.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files/files.h"
@@ -13,6 +14,7 @@
 #include "base/text/utf8.h"
 #include "server/access/private_database.h"
 #include "server/access/random_text.h"
+#include "server/catalog/api_json.h"
 #include "server/catalog/unix_time.h"
 
 namespace throng::server {
@@ -35,9 +37,15 @@ CREATE TABLE IF NOT EXISTS key (
   max_bytes INTEGER NOT NULL DEFAULT 0,
   max_priority INTEGER NOT NULL DEFAULT 0,
   created_ms INTEGER NOT NULL,
-  revoked_ms INTEGER NOT NULL DEFAULT 0
+  revoked_ms INTEGER NOT NULL DEFAULT 0,
+  expires_ms INTEGER NOT NULL DEFAULT 0
 ) WITHOUT ROWID
 )";
+/// Version 1: keys may expire, which a program that does not know of it would not see.
+constexpr int kVersion = 1;
+
+constexpr const char* kColumns =
+    "id, name, scope, max_active, max_bytes, max_priority, created_ms, revoked_ms, expires_ms";
 
 bool is_made_here(std::string_view token) {
   return token.starts_with(kPrefix) &&
@@ -61,6 +69,23 @@ Scope parse_scope(const std::string& name) {
   return *scope;
 }
 
+KeyRow read_key(SQLite::Statement& query) {
+  return {query.getColumn(0).getString(),
+          query.getColumn(1).getString(),
+          parse_scope(query.getColumn(2).getString()),
+          query.getColumn(3).getInt(),
+          query.getColumn(4).getInt64(),
+          query.getColumn(5).getInt(),
+          query.getColumn(6).getInt64(),
+          query.getColumn(7).getInt64(),
+          query.getColumn(8).getInt64()};
+}
+
+/// Whether callers are served with the key.
+bool is_in_use(const KeyRow& key) {
+  return key.revoked_ms == 0 && (key.expires_ms == 0 || unix_ms_now() < key.expires_ms);
+}
+
 fs::path prepared(const fs::path& data) {
   make_folders(data);
   return data / "keys.sqlite";
@@ -69,7 +94,7 @@ fs::path prepared(const fs::path& data) {
 void set_up(SQLite::Database& database) {
   database.exec(kTable);
   // Columns that earlier versions did not have.
-  for (const char* column : {"max_bytes", "max_priority"}) {
+  for (const char* column : {"max_bytes", "max_priority", "expires_ms"}) {
     SQLite::Statement known(database,
                             "SELECT count(*) FROM pragma_table_info('key') WHERE name = ?");
     known.bind(1, column);
@@ -90,7 +115,8 @@ struct Keys::File : PrivateDatabase {
     with([&](SQLite::Database& database) {
       SQLite::Statement insert(database,
                                "INSERT INTO key (id, name, hash, scope, max_active, created_ms, "
-                               "max_bytes, max_priority) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+                               "max_bytes, max_priority, expires_ms) "
+                               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
       insert.bind(1, key_id(token, hash));
       insert.bind(2, row.name);
       insert.bind(3, hash);
@@ -99,6 +125,7 @@ struct Keys::File : PrivateDatabase {
       insert.bind(6, unix_ms_now());
       insert.bind(7, row.max_bytes);
       insert.bind(8, row.max_priority);
+      insert.bind(9, row.expires_ms);
       insert.exec();
     });
   }
@@ -134,7 +161,7 @@ bool is_own_key(std::string_view text) {
 Keys::Keys(const fs::path& data) {
   const fs::path path = prepared(data);
   try {
-    file_ = std::make_unique<File>(path, "API keys", set_up);
+    file_ = std::make_unique<File>(path, "API keys", kVersion, set_up);
   } catch (const SQLite::Exception& error) {
     throw EnvironmentError(fmt::format("API keys in {}: {}", path.string(), error.what()));
   }
@@ -143,10 +170,10 @@ Keys::Keys(const fs::path& data) {
 Keys::~Keys() = default;
 
 std::string Keys::create(const std::string& name, Scope scope, int max_active,
-                         std::int64_t max_bytes, int max_priority) {
+                         std::int64_t max_bytes, int max_priority, std::int64_t expires_ms) {
   std::string token =
       fmt::format("{}{}_{}", kPrefix, random_text(kIdLength), random_text(kSecretLength));
-  file_->insert({"", name, scope, max_active, max_bytes, max_priority}, token);
+  file_->insert({"", name, scope, max_active, max_bytes, max_priority, 0, 0, expires_ms}, token);
   return token;
 }
 
@@ -157,27 +184,27 @@ void Keys::add(const std::string& name, Scope scope, const std::string& token) {
 
 std::vector<KeyRow> Keys::list() const {
   return file_->with([](SQLite::Database& database) {
-    SQLite::Statement query(
-        database,
-        "SELECT id, name, scope, max_active, max_bytes, max_priority, created_ms, revoked_ms "
-        "FROM key ORDER BY created_ms, id");
+    SQLite::Statement query(database,
+                            fmt::format("SELECT {} FROM key ORDER BY created_ms, id", kColumns));
     std::vector<KeyRow> rows;
-    while (query.executeStep()) {
-      rows.push_back({query.getColumn(0).getString(), query.getColumn(1).getString(),
-                      parse_scope(query.getColumn(2).getString()), query.getColumn(3).getInt(),
-                      query.getColumn(4).getInt64(), query.getColumn(5).getInt(),
-                      query.getColumn(6).getInt64(), query.getColumn(7).getInt64()});
-    }
+    while (query.executeStep()) rows.push_back(read_key(query));
     return rows;
   });
 }
 
-std::optional<KeyRow> Keys::row_of(const std::string& token) const {
-  const std::string id = key_id(token, sha256_hex(token));
-  for (KeyRow& row : list()) {
-    if (row.id == id) return std::move(row);
-  }
-  return std::nullopt;
+std::optional<KeyRow> Keys::row_of(std::string_view token) const {
+  if (!is_made_here(token) && !is_own_key(token)) return std::nullopt;
+  const std::string hash = sha256_hex(token);
+  return file_->with([&](SQLite::Database& database) -> std::optional<KeyRow> {
+    SQLite::Statement query(database,
+                            fmt::format("SELECT {}, hash FROM key WHERE id = ?", kColumns));
+    query.bind(1, key_id(token, hash));
+    if (!query.executeStep() ||
+        !equals_in_constant_time(query.getColumn("hash").getString(), hash)) {
+      return std::nullopt;
+    }
+    return read_key(query);
+  });
 }
 
 bool Keys::revoke(const std::string& id) {
@@ -199,30 +226,26 @@ bool Keys::are_needed() const {
 bool Keys::is_valid(const Caller& caller) const {
   if (caller.key_id.empty()) return !are_needed();
   return file_->with([&](SQLite::Database& database) {
-    SQLite::Statement query(database, "SELECT 1 FROM key WHERE id = ? AND revoked_ms = 0");
+    SQLite::Statement query(database, fmt::format("SELECT {} FROM key WHERE id = ?", kColumns));
     query.bind(1, caller.key_id);
-    return query.executeStep();
+    return query.executeStep() && is_in_use(read_key(query));
   });
 }
 
 std::optional<Caller> Keys::caller_of(std::string_view token) const {
   if (!are_needed()) return Caller{"", Scope::admin, 0, 0, kMaxPriority};
-  if (!is_made_here(token) && !is_own_key(token)) return std::nullopt;
-  const std::string hash = sha256_hex(token);
-  return file_->with([&](SQLite::Database& database) -> std::optional<Caller> {
-    SQLite::Statement query(
-        database,
-        "SELECT id, hash, scope, max_active, max_bytes, max_priority FROM key WHERE id = ? AND "
-        "revoked_ms = 0");
-    query.bind(1, key_id(token, hash));
-    if (!query.executeStep() || !equals_in_constant_time(query.getColumn(1).getString(), hash)) {
-      return std::nullopt;
-    }
-    const Scope scope = parse_scope(query.getColumn(2).getString());
-    const int max_priority = scope >= Scope::admin ? kMaxPriority : query.getColumn(5).getInt();
-    return Caller{query.getColumn(0).getString(), scope, query.getColumn(3).getInt(),
-                  query.getColumn(4).getInt64(), max_priority};
-  });
+  const std::optional<KeyRow> key = row_of(token);
+  if (!key || !is_in_use(*key)) return std::nullopt;
+  const int max_priority = key->scope >= Scope::admin ? kMaxPriority : key->max_priority;
+  return Caller{key->id, key->scope, key->max_active, key->max_bytes, max_priority};
+}
+
+std::string Keys::refusal_of(std::string_view token) const {
+  const std::optional<KeyRow> key = row_of(token);
+  const bool has_expired = key && key->revoked_ms == 0 && !is_in_use(*key);
+  return has_expired
+             ? fmt::format("this key expired at {}", time_json(key->expires_ms).get<std::string>())
+             : "this key is not known, or was revoked";
 }
 
 }  // namespace throng::server

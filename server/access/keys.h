@@ -46,6 +46,7 @@ struct KeyRow {
   int max_priority = 0;
   std::int64_t created_ms = 0;  ///< Unix time
   std::int64_t revoked_ms = 0;  ///< Unix time; 0: valid
+  std::int64_t expires_ms = 0;  ///< Unix time from which on callers are refused; 0: never
 };
 
 /// The names that is_key_name() accepts, for messages.
@@ -69,22 +70,24 @@ class Keys {
 
   /// Creates a key and returns its text, which is not stored and cannot be retrieved later.
   std::string create(const std::string& name, Scope scope, int max_active = 0,
-                     std::int64_t max_bytes = 0, int max_priority = 0);
+                     std::int64_t max_bytes = 0, int max_priority = 0, std::int64_t expires_ms = 0);
   /// Adds the given key, for which is_own_key() must hold.
   void add(const std::string& name, Scope scope, const std::string& token);
   std::vector<KeyRow> list() const;
-  /// The row of a key, revoked or not; nothing if the key is unknown.
-  std::optional<KeyRow> row_of(const std::string& token) const;
+  /// The row of a key, revoked, expired or not; nothing if the key is unknown.
+  std::optional<KeyRow> row_of(std::string_view token) const;
   /// Revokes a key. Returns false if there is no valid key with this id.
   bool revoke(const std::string& id);
 
   /// Whether a key has ever been created; from then on, every caller needs one.
   bool are_needed() const;
-  /// The caller with this key; std::nullopt if the key is invalid. If no keys are required, every
-  /// caller is an administrator.
+  /// The caller with this key; std::nullopt if the key is unknown, was revoked or has expired. If
+  /// no keys are required, every caller is an administrator.
   std::optional<Caller> caller_of(std::string_view token) const;
+  /// Why caller_of() returns no caller for a key, for its sender.
+  std::string refusal_of(std::string_view token) const;
   /// Whether a caller may still be served: for answers that go on for long. False once the key was
-  /// revoked, and for callers without a key once keys are required.
+  /// revoked or has expired, and for callers without a key once keys are required.
   bool is_valid(const Caller& caller) const;
 
  private:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -132,6 +133,7 @@ std::span<const Route> routes() {
       Route{Method::get, kSession, Scope::anybody, &send_session},
       Route{Method::remove, kSession, Scope::anybody, &close_session},
       Route{Method::get, "/v1/access/submit", Scope::submit, &confirm_access},
+      Route{Method::post, "/v1/service/drain", Scope::admin, &begin_drain},
       Route{Method::get, "/v1/version", Scope::anybody, &send_version},
       Route{Method::get, "/openapi.json", Scope::anybody, &send_openapi},
       Route{Method::get, "/metrics", Scope::read, &send_figures},
@@ -217,7 +219,7 @@ Caller admitted(const Keys& keys, Sessions& sessions, const Request& request, Sc
   const auto caller = caller_in(keys, sessions, request);
   if (!caller) {
     throw HttpError{401, has_credentials(request)
-                             ? "this key is not known, or was revoked"
+                             ? keys.refusal_of(key_in(sessions, request))
                              : "this service needs a key: Authorization: Bearer KEY"};
   }
   if (caller->scope < needed) {
@@ -334,6 +336,13 @@ void hold_until_sent(Response& response, std::shared_ptr<void> held) {
       };
 }
 
+/// Whether a request queues something that workers do.
+bool begins_work(const Route& route) {
+  constexpr std::array kHandlers = {&submit_job,   &retry_job,   &clone_job, &submit_calibration,
+                                    &submit_study, &retry_study, &begin_live};
+  return std::find(kHandlers.begin(), kHandlers.end(), route.handler) != kHandlers.end();
+}
+
 bool makes_room(const Route& route) {
   return route.method == Method::remove || std::string_view(route.path).ends_with("/cancel");
 }
@@ -344,11 +353,18 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
     : queue_(service.queue()),
       audit_(service.folders().data()),
       revoked_(keys, service.queue(), service.live()),
-      server_(with_limits(options, keys, sessions_, audit_, requests_), &write_library_error) {
+      server_(with_limits(options, keys, sessions_, audit_, requests_),
+              [this](const Request& request, Response& response, const HttpError& error) {
+                write_library_error(request, response, error);
+                const Route* refused = find_route(request);
+                http_.note(refused == nullptr ? "" : refused->path, request.method, response.status,
+                           0);
+              }) {
   const bool loopback = is_loopback(options.host);
   const auto route = [this, &service, &keys, &hooks, loopback](const Route& entry) {
     return [this, &service, &keys, &hooks, loopback, entry](const Request& request,
                                                             Response& response) {
+      const SteadyTime begun = steady_now();
       std::string key;
       std::shared_ptr<void> held;
       guarded(service.folders(), request, response, [&] {
@@ -358,6 +374,10 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
               1, caller.max_bytes - service.live().disk_bytes_of(caller.key_id));
         }
         key = caller.key_id;
+        if (begins_work(entry) && service.drain().has_begun()) {
+          response.set_header("Retry-After", "60");
+          throw HttpError{503, kDraining};
+        }
         // Those with a body were counted before it was read.
         const std::string length = request.get_header_value("Content-Length");
         const bool has_body = !length.empty() && length != "0";
@@ -365,13 +385,30 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         // A full disk shall not keep anybody from making room.
         const std::shared_ptr<void> room = makes_room(entry) ? service.reserve().free() : nullptr;
         const jobs::TaskSender sender(key);
-        entry.handler(
-            {service.queue(), service.uploads(), service.calibrations(), service.studies(),
-             service.housekeeping(), service.datasets(), service.reports(), service.confined(),
-             service.folders(), hooks, service.live(), service.executor(), keys, sessions_,
-             revoked_, answers_, caller},
-            request, response);
+        entry.handler({service.queue(),
+                       service.uploads(),
+                       service.calibrations(),
+                       service.studies(),
+                       service.housekeeping(),
+                       service.datasets(),
+                       service.reports(),
+                       service.confined(),
+                       service.folders(),
+                       hooks,
+                       service.live(),
+                       service.drain(),
+                       service.tasks(),
+                       http_,
+                       service.executor(),
+                       keys,
+                       sessions_,
+                       revoked_,
+                       answers_,
+                       caller},
+                      request, response);
       });
+      http_.note(entry.path, request.method, response.status,
+                 std::chrono::duration<double>(steady_now() - begun).count());
       if (held != nullptr) hold_until_sent(response, std::move(held));
       if (is_refusal(response.status)) {
         record_refusal(audit_, keys, sessions_, request, response.status);

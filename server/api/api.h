@@ -13,6 +13,7 @@
 #include "server/api/routes.h"
 #include "server/api/service.h"
 #include "server/http/answer_budget.h"
+#include "server/http/http_meters.h"
 #include "server/http/http_server.h"
 #include "server/http/key_limit.h"
 #include "server/jobs/revoked_keys.h"
@@ -46,6 +47,7 @@ class Api {
   Sessions sessions_;
   AuditLog audit_;
   AnswerBudget answers_;
+  HttpMeters http_;
   RevokedKeys revoked_;
   KeyLimit requests_{kMaxRequestsOfKey};
   HttpServer server_;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/json/json_integer.h"
+#include "server/access/expiry.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
 #include "server/http/http.h"
@@ -33,6 +34,7 @@ json key_json(const KeyRow& key) {
           {"max_priority", key.scope >= Scope::admin ? kMaxPriority : key.max_priority},
           {"created_at", time_json(key.created_ms)},
           {"revoked_at", time_json(key.revoked_ms)},
+          {"expires_at", time_json(key.expires_ms)},
           {"links", {{"self", "/v1/keys/" + key.id}}}};
 }
 
@@ -68,6 +70,15 @@ Scope scope_in(const json& body) {
   return *scope;
 }
 
+/// Unix time; 0 where it is left out or null.
+std::int64_t expiry_in(const json& body) {
+  const json value = body.value("expires_at", json(nullptr));
+  if (value.is_null()) return 0;
+  const auto expires_ms = value.is_string() ? parse_expiry(value.get<std::string>()) : std::nullopt;
+  if (expires_ms) return *expires_ms;
+  throw wrong_field(kKeyNoun, "/expires_at", value.dump(), kExpiryRule);
+}
+
 }  // namespace
 
 void create_key(const RequestContext& context, const Request& request, Response& response) {
@@ -76,15 +87,16 @@ void create_key(const RequestContext& context, const Request& request, Response&
                     "the first key is made on the machine of the service: throng keys create NAME "
                     "--scope admin --data DIR"};
   }
-  const json body =
-      json_fields(request, kKeyNoun, {"name", "scope", "max_jobs", "max_bytes", "max_priority"});
+  const json body = json_fields(
+      request, kKeyNoun, {"name", "scope", "max_jobs", "max_bytes", "max_priority", "expires_at"});
   const std::string name = name_in(body);
   const auto max_jobs = integer_in(body, "max_jobs", 0, std::numeric_limits<int>::max());
   const auto max_bytes = integer_in(body, "max_bytes", 0, std::numeric_limits<std::int64_t>::max());
   const auto max_priority = integer_in(body, "max_priority", -kMaxPriority, kMaxPriority);
-  const std::string token = context.keys.create(name, scope_in(body), static_cast<int>(max_jobs),
-                                                max_bytes, static_cast<int>(max_priority));
-  json answer = key_json(find_key(context, context.keys.caller_of(token)->key_id));
+  const std::string token =
+      context.keys.create(name, scope_in(body), static_cast<int>(max_jobs), max_bytes,
+                          static_cast<int>(max_priority), expiry_in(body));
+  json answer = key_json(context.keys.row_of(token).value());
   answer["key"] = token;  // this once
   response.set_header("Location", answer["links"]["self"].get<std::string>());
   response.set_header("Cache-Control", "no-store");

@@ -1,6 +1,7 @@
 // Context of a request: the caller and the parts of the service that handlers use.
 #pragma once
 
+#include "jobs/queue/workers/task_meters.h"
 #include "server/access/keys.h"
 #include "server/access/sessions.h"
 #include "server/catalog/calibrations.h"
@@ -10,6 +11,7 @@
 #include "server/catalog/uploads.h"
 #include "server/http/answer_budget.h"
 #include "server/jobs/datasets.h"
+#include "server/jobs/drain.h"
 #include "server/jobs/housekeeping.h"
 #include "server/jobs/job_queue.h"
 #include "server/jobs/report_maker.h"
@@ -18,6 +20,8 @@
 #include "server/webhooks/webhook_sender.h"
 
 namespace throng::server {
+
+class HttpMeters;
 
 struct RequestContext {
   JobQueue& queue;
@@ -31,6 +35,9 @@ struct RequestContext {
   const ServiceFolders& folders;
   WebhookSender& hooks;
   LiveFlights& live;
+  Drain& drain;
+  const jobs::TaskMeters& tasks;
+  const HttpMeters& http;
   const jobs::Executor& executor;
   Keys& keys;
   Sessions& sessions;

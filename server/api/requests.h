@@ -16,6 +16,10 @@
 
 namespace throng::server {
 
+/// Detail of a 503 while the service drains.
+inline constexpr const char* kDraining =
+    "the service is about to end, and begins nothing new; it goes on after its next start";
+
 void write_json(httplib::Response& response, int status, const nlohmann::json& value);
 
 /// An integer parameter of the query in [min_number, max_number]; `usual` if it is missing. Throws

@@ -46,6 +46,8 @@ Service::Service(const ServiceOptions& options, jobs::Executor& executor)
       live_(options.data, options.live),
       runner_(
           folders_, store_, state_, uploads_, executor,
-          [this] { return housekeeping_.look_at_disk(); }, options.max_active_jobs, publish_to_) {}
+          [this] { return housekeeping_.look_at_disk(); }, options.max_active_jobs, publish_to_),
+      tasks_(options.tasks),
+      drain_(state_, executor, options.drain) {}
 
 }  // namespace throng::server

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "jobs/queue/confine/confined_task.h"
 #include "jobs/queue/dataset/folder_lock.h"
 #include "jobs/queue/store/store.h"
 #include "jobs/queue/workers/executor.h"
+#include "jobs/queue/workers/task_meters.h"
 #include "server/catalog/calibrations.h"
 #include "server/catalog/confined_checks.h"
 #include "server/catalog/queue_state.h"
@@ -15,6 +17,7 @@
 #include "server/catalog/uploads.h"
 #include "server/jobs/datasets.h"
 #include "server/jobs/disk_reserve.h"
+#include "server/jobs/drain.h"
 #include "server/jobs/housekeeping.h"
 #include "server/jobs/job_queue.h"
 #include "server/jobs/job_runner.h"
@@ -36,8 +39,11 @@ struct ServiceOptions {
   std::int64_t max_task_mib = 0;  ///< max memory of a task (ConfinedChecks); 0: unlimited
   PublishTargets publish_to = PublishTargets();  ///< addresses to which jobs may publish
   LiveLimits live = {};
-  jobs::Store::Clock clock = {};   ///< default: the system clock
-  jobs::Store::Clock steady = {};  ///< clock of jobs::ServiceClock
+  DrainOptions drain = {};
+  std::shared_ptr<const jobs::TaskMeters> tasks =
+      std::make_shared<jobs::TaskMeters>();  ///< those that the executor notes attempts in
+  jobs::Store::Clock clock = {};             ///< default: the system clock
+  jobs::Store::Clock steady = {};            ///< clock of jobs::ServiceClock
 };
 
 /// The parts are safe to use from many threads.
@@ -59,6 +65,8 @@ class Service {
   Datasets& datasets() { return datasets_; }
   ReportMaker& reports() { return reports_; }
   LiveFlights& live() { return live_; }
+  Drain& drain() { return drain_; }
+  const jobs::TaskMeters& tasks() const { return *tasks_; }
   const jobs::Executor& executor() const { return executor_; }
 
  private:
@@ -80,6 +88,8 @@ class Service {
   Datasets datasets_;
   LiveFlights live_;
   JobRunner runner_;
+  std::shared_ptr<const jobs::TaskMeters> tasks_;
+  Drain drain_;
 };
 
 }  // namespace throng::server

@@ -2,9 +2,7 @@
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -27,39 +25,6 @@ using nlohmann::json;
 
 namespace {
 
-/// Memory of this process that is in RAM; 0 where the kernel does not report it.
-std::int64_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::int64_t total = 0;
-  std::int64_t resident = 0;
-  file >> total >> resident;
-  return resident * ::sysconf(_SC_PAGESIZE);
-}
-
-/// Prometheus figures of a cluster's nodes; "" if tasks run on this machine.
-std::string figures_of_nodes(const std::vector<jobs::NodeWork>& nodes) {
-  if (nodes.empty()) return "";
-  std::string running =
-      "# HELP throng_node_tasks Tasks that run now, by node.\n"
-      "# TYPE throng_node_tasks gauge\n";
-  std::string ended =
-      "# HELP throng_node_attempts_total Attempts at tasks that ended since the start, by node.\n"
-      "# TYPE throng_node_attempts_total counter\n";
-  std::string busy =
-      "# HELP throng_node_busy_seconds_total Time of these attempts.\n"
-      "# TYPE throng_node_busy_seconds_total counter\n";
-  for (const jobs::NodeWork& work : nodes) {
-    running += fmt::format("throng_node_tasks{{node=\"{}\"}} {}\n", work.node, work.running);
-    ended += fmt::format(
-        "throng_node_attempts_total{{node=\"{0}\",outcome=\"succeeded\"}} {1}\n"
-        "throng_node_attempts_total{{node=\"{0}\",outcome=\"failed\"}} {2}\n",
-        work.node, work.done, work.failed);
-    busy += fmt::format("throng_node_busy_seconds_total{{node=\"{}\"}} {:.1f}\n", work.node,
-                        work.busy_s);
-  }
-  return running + ended + busy;
-}
-
 std::int64_t free_bytes(const RequestContext& context) {
   return measure_disk(context.folders.data()).free_bytes;
 }
@@ -78,6 +43,7 @@ void send_readiness(const RequestContext& context, const Request& request, Respo
   context.queue.check_store();
   // Strangers learn no figures of the machine.
   const bool is_known = caller_in(context.keys, context.sessions, request).has_value();
+  if (context.drain.has_begun()) throw HttpError{503, kDraining};
   if (const std::string reason = context.queue.paused(); !reason.empty()) {
     throw HttpError{503, is_known ? fmt::format("the queue is paused: {}", reason)
                                   : std::string("the queue is paused")};
@@ -87,25 +53,9 @@ void send_readiness(const RequestContext& context, const Request& request, Respo
   write_json(response, 200, ready);
 }
 
-void send_figures(const RequestContext& context, const Request&, Response& response) {
-  std::string text =
-      "# HELP throng_jobs Jobs, calibrations and studies by state.\n# TYPE throng_jobs gauge\n";
-  for (const auto& [state, count] : context.queue.count()) {
-    text += fmt::format("throng_jobs{{state=\"{}\"}} {}\n", to_string(state), count);
-  }
-  const auto add = [&](const char* name, const char* type, const char* help, auto value) {
-    text += fmt::format("# HELP {0} {1}\n# TYPE {0} {2}\n{0} {3}\n", name, help, type, value);
-  };
-  add("throng_events_total", "counter", "Events of jobs since the store was made.",
-      context.queue.last_event());
-  add("throng_event_streams", "gauge", "Clients that watch events.", context.queue.watchers());
-  add("throng_queue_paused", "gauge", "1 while the queue is paused because the disk is full.",
-      context.queue.paused().empty() ? 0 : 1);
-  text += figures_of_nodes(context.executor.nodes());
-  add("throng_disk_free_bytes", "gauge", "Free bytes where the data folder lies.",
-      free_bytes(context));
-  add("process_resident_memory_bytes", "gauge", "Memory of the server in RAM.", resident_bytes());
-  response.set_content(text, "text/plain; version=0.0.4; charset=utf-8");
+void begin_drain(const RequestContext& context, const Request&, Response& response) {
+  context.drain.begin();
+  write_json(response, 202, {{"status", "draining"}});
 }
 
 void send_version(const RequestContext&, const Request&, Response& response) {

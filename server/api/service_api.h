@@ -1,4 +1,4 @@
-// Routes of the service itself: health, metrics for Prometheus, schemas, and names that jobs may
+// Routes of the service itself: health, drain, schemas, and names that jobs may
 // use.
 #pragma once
 
@@ -15,6 +15,9 @@ void send_readiness(const RequestContext& context, const httplib::Request& reque
 /// Sends metrics in the text format of Prometheus.
 void send_figures(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
+/// Ends the service once its running tasks have finished.
+void begin_drain(const RequestContext& context, const httplib::Request& request,
+                 httplib::Response& response);
 void send_version(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 void send_schema(const RequestContext& context, const httplib::Request& request,

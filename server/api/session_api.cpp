@@ -87,12 +87,16 @@ void write_session(const RequestContext& context, const std::optional<Caller>& c
 
 }  // namespace
 
-std::optional<Caller> caller_in(const Keys& keys, Sessions& sessions, const Request& request) {
+std::string key_in(Sessions& sessions, const Request& request) {
   constexpr std::string_view kBearer = "Bearer ";
   const std::string header = request.get_header_value(kAuthorization);
-  if (header.starts_with(kBearer)) return keys.caller_of(header.substr(kBearer.size()));
+  if (header.starts_with(kBearer)) return header.substr(kBearer.size());
   const std::string token = token_in(request);
-  return keys.caller_of(token.empty() || !is_of_own_page(request) ? "" : sessions.key_of(token));
+  return token.empty() || !is_of_own_page(request) ? "" : sessions.key_of(token);
+}
+
+std::optional<Caller> caller_in(const Keys& keys, Sessions& sessions, const Request& request) {
+  return keys.caller_of(key_in(sessions, request));
 }
 
 bool has_credentials(const Request& request) {
@@ -112,7 +116,7 @@ void open_session(const RequestContext& context, const Request& request, Respons
   }
   const std::string key = body["key"];
   const auto caller = context.keys.caller_of(key);
-  if (!caller) throw HttpError{401, "this key is not known, or was revoked"};
+  if (!caller) throw HttpError{401, context.keys.refusal_of(key)};
   context.sessions.close(token_in(request));
   set_cookie(request, response, context.sessions.open(key), "");
   write_session(context, caller, response);

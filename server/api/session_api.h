@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "server/api/request_context.h"
 #include "server/http/http_fwd.h"
@@ -13,6 +14,9 @@ namespace throng::server {
 /// service's own pages, because browsers also send it with requests from other ports of this host.
 std::optional<Caller> caller_in(const Keys& keys, Sessions& sessions,
                                 const httplib::Request& request);
+
+/// The key of a request, valid or not, which caller_in() looks up; "" without one.
+std::string key_in(Sessions& sessions, const httplib::Request& request);
 
 /// Whether a request has a key or a session cookie, valid or not.
 bool has_credentials(const httplib::Request& request);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/json/json_text.h"
 #include "jobs/queue/workers/injected_faults.h"
 #include "server/catalog/api_json.h"
 
@@ -29,8 +30,33 @@ std::optional<JobRow> QueueState::apply(const JobRow& row, JobEvent event,
   jobs::inject_faults(place + "before", 1);
   std::optional<JobRow> changed = store_.apply(row, event, error_json);
   jobs::inject_faults(place + "after", 1);
-  if (changed) notify_event();
+  if (!changed) return changed;
+  if (!is_active(changed->state)) count_end(*changed);
+  notify_event();
   return changed;
+}
+
+void QueueState::count_end(const JobRow& ended) {
+  const nlohmann::json error = parse_json_or_discard(ended.error_json);
+  const std::string cause = error.is_object() ? error.value("kind", "") : "";
+  const std::lock_guard lock(mutex_);
+  ++ended_[{std::string(to_string(ended.state)), cause}];
+}
+
+std::map<std::pair<std::string, std::string>, std::int64_t> QueueState::ended_jobs() const {
+  const std::lock_guard lock(mutex_);
+  return ended_;
+}
+
+void QueueState::drain() {
+  const std::lock_guard lock(mutex_);
+  is_draining_ = true;
+  ++revision_;
+}
+
+bool QueueState::is_draining() const {
+  const std::lock_guard lock(mutex_);
+  return is_draining_;
 }
 
 jobs::Retried QueueState::retry(const JobRow& row, const jobs::OwnerLimits& limits) {
@@ -61,7 +87,7 @@ std::optional<JobRow> QueueState::begin(const std::function<std::optional<JobRow
                                         const std::stop_source& stop) {
   // Under the lock, so that a job that is removed has either not been begun or is active.
   const std::lock_guard lock(mutex_);
-  if (!paused_.empty()) return std::nullopt;
+  if (!paused_.empty() || is_draining_) return std::nullopt;
   std::optional<JobRow> row = start();
   if (row) active_.insert_or_assign(row->id, Active{*row, stop});
   return row;
@@ -134,7 +160,9 @@ void QueueState::complete(JobRow& row) const {
     if (!newest.progress_json.empty()) row.progress_json = newest.progress_json;
     row.waiting_for = newest.waiting_for;
   }
-  if (is_active(row.state) && !paused_.empty()) row.waiting_for = paused_;
+  if (!is_active(row.state)) return;
+  if (is_draining_) row.waiting_for = "the service is about to end";
+  if (!paused_.empty()) row.waiting_for = paused_;
 }
 
 void QueueState::notify_queued() {
@@ -154,7 +182,7 @@ bool QueueState::wait_for_queued(const std::stop_token& stop) {
 
 bool QueueState::wait_while_paused(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  return changed_.wait(lock, stop, [&] { return paused_.empty(); });
+  return changed_.wait(lock, stop, [&] { return paused_.empty() && !is_draining_; });
 }
 
 void QueueState::wait(const std::stop_token& stop, std::chrono::milliseconds time) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "jobs/queue/store/store.h"
@@ -82,7 +83,16 @@ class QueueState {
   /// The reason of the pause; "" if the queue is not paused.
   std::string paused() const;
 
+  /// From now on no job is started; active jobs go on.
+  void drain();
+  bool is_draining() const;
+
+  /// Jobs that have ended since the start, by end and cause: {"failed", "input"}.
+  std::map<std::pair<std::string, std::string>, std::int64_t> ended_jobs() const;
+
  private:
+  void count_end(const jobs::JobRow& ended);
+
   struct Active {
     jobs::JobRow row;  ///< carries the newest progress and priority
     std::stop_source stop;
@@ -90,10 +100,12 @@ class QueueState {
 
   jobs::Store& store_;
   mutable std::mutex mutex_;
-  std::condition_variable_any changed_;   ///< a job was queued or ended, or the pause changed
-  bool queued_ = true;                    ///< a job may be ready to start; guarded by mutex_
-  std::string paused_;                    ///< guarded by mutex_
-  std::map<std::string, Active> active_;  ///< by id; guarded by mutex_
+  std::condition_variable_any changed_;  ///< a job was queued or ended, or the pause changed
+  bool queued_ = true;                   ///< a job may be ready to start; guarded by mutex_
+  std::string paused_;                   ///< guarded by mutex_
+  bool is_draining_ = false;             ///< guarded by mutex_
+  std::map<std::pair<std::string, std::string>, std::int64_t> ended_;  ///< guarded by mutex_
+  std::map<std::string, Active> active_;                               ///< by id; guarded by mutex_
   mutable EventCounter event_counter_;
   std::atomic<std::uint64_t> revision_ = 0;
 };

@@ -77,6 +77,11 @@ class JobQueue {
       const std::string& id, const std::function<std::string(const jobs::JobRow&)>& write) const;
   std::vector<jobs::JobRow> list(const jobs::JobFilter& filter) const;
   std::map<jobs::JobState, std::int64_t> count() const { return store_.count(); }
+  std::vector<jobs::OwnerCount> count_by_owner() const { return store_.count_by_owner(); }
+  /// QueueState::ended_jobs()
+  auto ended_jobs() const { return state_.ended_jobs(); }
+  /// Disk usage of all jobs.
+  std::int64_t total_bytes() const { return store_.total_bytes(); }
   /// The reason why the queue is paused; "" if it is not.
   std::string paused() const { return state_.paused(); }
   /// Throws EnvironmentError if the store's files were removed or replaced (Store::check_files()).

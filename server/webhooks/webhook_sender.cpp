@@ -67,6 +67,7 @@ Delivery WebhookSender::post(const Webhook& webhook, std::int64_t event, const s
   delivery.took_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
                          std::chrono::steady_clock::now() - begun)
                          .count();
+  ++(delivery.succeeded() ? delivered_ : failed_);
   return delivery;
 }
 

@@ -104,7 +104,7 @@ struct Webhooks::File : PrivateDatabase {
 Webhooks::Webhooks(const fs::path& data) {
   make_folders(data);
   try {
-    file_ = std::make_unique<File>(data / "webhooks.sqlite", "webhooks",
+    file_ = std::make_unique<File>(data / "webhooks.sqlite", "webhooks", 1,
                                    [](SQLite::Database& database) {
                                      database.exec("PRAGMA journal_mode = WAL");
                                      database.exec(kWebhookTables);

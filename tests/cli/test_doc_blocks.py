@@ -63,6 +63,8 @@ NEEDS = {
     ("docs/crowd.md", "throng crowd 4square.xml"): ["menge_project"],
     ("docs/metrics.md", "throng metrics run.h5"): ["traces"],
     ("docs/metrics.md", "throng report out"): ["run_done", "service"],
+    ("docs/operations.md", "throng backup"): ["service"],
+    ("docs/operations.md", "THRONG_URL="): ["service"],
     ("docs/people.md", "throng people import"): ["characters", "job"],
     ("docs/recipes.md", "throng serve"): ["two_jobs"],
     ("docs/recipes.md", "python3"): ["run_done"],

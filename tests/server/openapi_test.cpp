@@ -198,6 +198,7 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   }
   expect_described("delete", "/v1/live/{id}", client().Delete("/v1/live/l0"));
   expect_described("post", "/v1/session", posted("/v1/session", R"({"key": "any"})"));
+  expect_described("post", "/v1/service/drain", posted("/v1/service/drain", ""));
   expect_described("post", "/v1/session", posted("/v1/session", "{}"));
   expect_described("delete", "/v1/session", client().Delete("/v1/session"));
   EXPECT_GT(described_.size(), 45U);

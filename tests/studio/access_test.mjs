@@ -111,6 +111,10 @@ test("an administrator makes keys and revokes them", async () => {
   await page.getByRole("button", { name: "Make the key" }).click();
   await page.getByRole("alert").getByText("/max_jobs").waitFor();
   await page.getByLabel("Jobs at once").fill("3");
+  await page.getByLabel("Expires").fill("yesterday");
+  await page.getByRole("button", { name: "Make the key" }).click();
+  await page.getByRole("alert").getByText("/expires_at").waitFor();
+  await page.getByLabel("Expires").fill("2100-02-03");
   await page.getByRole("button", { name: "Make the key" }).click();
   const made = page.getByLabel("key of camera team", { exact: true });
   await made.waitFor();
@@ -119,10 +123,10 @@ test("an administrator makes keys and revokes them", async () => {
   await check(page, "keys");
   const { keys } = await service.json("/v1/keys", { headers: { Authorization: `Bearer ${admin}` } });
   assert.deepEqual(
-    keys.map(({ name, scope, max_jobs }) => [name, scope, max_jobs]),
+    keys.map(({ name, scope, max_jobs, expires_at }) => [name, scope, max_jobs, expires_at]),
     [
-      ["test", "admin", null],
-      ["camera team", "read", 3],
+      ["test", "admin", null, null],
+      ["camera team", "read", 3, "2100-02-03T00:00:00.000Z"],
     ],
   );
   await page.reload();

@@ -42,9 +42,10 @@ CredentialVariables credential_variables() {
 }
 
 void hide_environment() {
-  // Kept as long as the process: the C library takes pointers into them.
-  static std::vector<std::unique_ptr<char[]>> texts;  // NOLINT(modernize-avoid-c-arrays)
-  static std::vector<char*> entries;
+  // Never destroyed: the C library takes pointers into them, and others ask it at exit().
+  static auto& texts =
+      *new std::vector<std::unique_ptr<char[]>>;  // NOLINT(modernize-avoid-c-arrays)
+  static auto& entries = *new std::vector<char*>;
   entries.clear();
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::size_t size = std::strlen(*entry) + 1;

@@ -58,26 +58,6 @@ std::map<std::string, NodeWork> read_totals(const fs::path& path) {
 
 }  // namespace
 
-std::string to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::succeeded:
-      return kSucceeded;
-    case Outcome::input_error:
-      return "input_error";
-    case Outcome::environment_error:
-      return "environment_error";
-    case Outcome::crashed:
-      return "crashed";
-    case Outcome::timed_out:
-      return "timed_out";
-    case Outcome::out_of_memory:
-      return "out_of_memory";
-    case Outcome::cancelled:
-      break;
-  }
-  return "cancelled";
-}
-
 NodeRecords::Totals& NodeRecords::job_totals(const JobFolder& folder) const {
   const auto known = jobs_.find(folder.path());
   if (known != jobs_.end()) return known->second;

@@ -26,9 +26,6 @@ struct NodeRecord {
   std::string message = {};
 };
 
-/// Name of an outcome: "succeeded", "out_of_memory".
-std::string to_string(Outcome outcome);
-
 /// Safe to use from many threads.
 class NodeRecords {
  public:

@@ -38,7 +38,9 @@ void SlurmArrayNames::give_back(const std::string& array) {
 
 SlurmArrays::SlurmArrays(const SlurmOptions& options, LocalProcessesOptions here)
     : shared_(new SlurmShared{completed(options), SlurmController({.poll_s = options.poll_s})}),
-      here_(std::move(here)) {}
+      here_(std::move(here)) {
+  shared_->meters = here_.meters();
+}
 
 std::vector<TaskResult> SlurmArrays::run(const JobFolder& folder, std::span<const Task> tasks,
                                          const OnProgress& on_progress, std::stop_token stop,

@@ -46,6 +46,7 @@ struct SlurmShared {
   /// Max number of tasks in an array; lowered when the controller refuses an array for its size.
   std::atomic<std::size_t> max_tasks = kMaxArrayTasks;
   std::atomic<bool> leaves_tasks = false;
+  std::shared_ptr<TaskMeters> meters = {};  ///< may be null
 };
 
 /// Tasks that publish datasets run on this machine, so that nodes need no access to other networks
@@ -60,6 +61,9 @@ class SlurmArrays final : public Executor {
                               const OnProgress& on_progress, std::stop_token stop,
                               const Share& share) override;
   void leave_tasks() override { shared_->leaves_tasks = true; }
+  void drain(std::chrono::milliseconds limit, const std::stop_token& stop) override {
+    here_.drain(limit, stop);  // those of nodes survive this process
+  }
   std::vector<NodeWork> nodes_of(const JobFolder& folder) const override {
     return shared_->book.of(JobFolder(std::filesystem::absolute(folder.path())));
   }

@@ -241,6 +241,7 @@ void SlurmBatch::note_end(const Array& array, const Entry& entry, const std::str
   const double seconds = entry.messages.end()
                              ? entry.messages.end()->seconds
                              : std::chrono::duration<double>(options_.now() - entry.begun).count();
+  if (shared_.meters != nullptr) shared_.meters->note(tasks_[entry.task], outcome, seconds);
   shared_.book.leave(folder_, entry.node);
   shared_.book.end(folder_,
                    {to_string(tasks_[entry.task]), results_[entry.task].attempts, entry.node,

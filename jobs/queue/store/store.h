@@ -89,6 +89,13 @@ struct NewJob {
   std::int64_t planned_bytes = 0;   ///< JobRow::planned_bytes
 };
 
+/// Jobs of an owner in a state.
+struct OwnerCount {
+  std::string owner;  ///< JobRow::owner
+  JobState state = JobState::queued;
+  std::int64_t jobs = 0;
+};
+
 /// Result of Store::retry().
 struct Retried {
   std::optional<JobRow> row = {};  ///< none if the job's state has changed or allows no retry
@@ -163,6 +170,8 @@ class Store {
   std::vector<JobRow> list(const JobFilter& filter) const;
   /// The number of jobs of any kind in each state.
   std::map<JobState, std::int64_t> count() const;
+  /// The number of queued and of running jobs of each owner that has any, the largest ones first.
+  std::vector<OwnerCount> count_by_owner() const;
   /// Jobs that a supervisor may take up: all running ones, then one queued job per owner, namely
   /// the oldest with the owner's highest priority.
   std::vector<JobRow> startable() const;

@@ -135,6 +135,21 @@ std::map<JobState, std::int64_t> Store::count() const {
   });
 }
 
+std::vector<OwnerCount> Store::count_by_owner() const {
+  return connections_->read([&](SQLite::Database& database) {
+    SQLite::Statement query(database,
+                            "SELECT owner, state, count(*) FROM job WHERE state IN ('queued', "
+                            "'running') GROUP BY owner, state ORDER BY count(*) DESC, owner");
+    std::vector<OwnerCount> counts;
+    while (query.executeStep()) {
+      counts.push_back({query.getColumn(0).getString(),
+                        job_state_named(query.getColumn(1).getString()).value_or(JobState::queued),
+                        query.getColumn(2).getInt64()});
+    }
+    return counts;
+  });
+}
+
 std::vector<JobRow> Store::startable() const {
   return connections_->read([&](SQLite::Database& database) {
     SQLite::Statement running(

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/version.h"
 
 namespace throng::jobs {
 
@@ -145,7 +146,10 @@ END;
     // Estimated size of a job's files.
     "ALTER TABLE job ADD COLUMN planned_bytes INTEGER NOT NULL DEFAULT 0",
     // Jobs of before load the shipped characters.
-    "ALTER TABLE job ADD COLUMN models_mib INTEGER NOT NULL DEFAULT 500"};
+    "ALTER TABLE job ADD COLUMN models_mib INTEGER NOT NULL DEFAULT 500",
+    // Keys, in another file, may expire since: programs that would accept expired ones do not open
+    // this one.
+    "-- no change"};
 
 }  // namespace
 
@@ -154,7 +158,9 @@ void prepare_tables(SQLite::Database& database) {
   const int version = database.execAndGet("PRAGMA user_version");
   if (version > kNewest) {
     throw EnvironmentError(
-        fmt::format("the job store has version {}, this program knows {}", version, kNewest));
+        fmt::format("a newer throng wrote the job store, which has version {}; this program ({}) "
+                    "knows up to {}: use the newer one, or restore a backup that is as old",
+                    version, kGenerator, kNewest));
   }
   SQLite::Transaction transaction(database);
   for (int step = version; step < kNewest; ++step) {

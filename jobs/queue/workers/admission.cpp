@@ -63,7 +63,7 @@ Admission::Lack Admission::lack_of(const Claim& claim) const {
 
 bool Admission::may_begin(Claim& claim) {
   const SteadyTime now = limits_.now();
-  if (static_cast<int>(running_.size()) >= limits_.workers) return false;
+  if (is_draining_ || static_cast<int>(running_.size()) >= limits_.workers) return false;
   for (const Claim& other : claims_) {
     if (&other == &claim || !other.asked || now - *other.asked > kMaxSilence) continue;
     if (!is_ahead(other, claim)) continue;
@@ -84,6 +84,13 @@ void Admission::finish(std::list<Running>::iterator running) {
   --owner.running;
   owner.served_s += std::chrono::duration<double>(limits_.now() - running->begun).count();
   running_.erase(running);
+  if (running_.empty()) idle_.notify_all();
+}
+
+void Admission::drain(std::chrono::milliseconds limit, const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  is_draining_ = true;
+  idle_.wait_for(lock, stop, limit, [this] { return running_.empty(); });
 }
 
 Admission::Claimant::Claimant(Admission& admission, const std::string& owner,

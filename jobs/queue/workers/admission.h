@@ -7,6 +7,8 @@
 // but every fourth task is the oldest job's, so that large jobs end at all.
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <list>
@@ -14,6 +16,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "base/compute/steady_time.h"
@@ -40,6 +43,9 @@ class Admission {
   const AdmissionLimits& limits() const { return limits_; }
   /// The number of jobs that have a Claimant.
   int jobs() const;
+
+  /// Starts no more tasks, and blocks until none runs, for at most `limit` or until a stop.
+  void drain(std::chrono::milliseconds limit, const std::stop_token& stop);
 
   class Permit;
   class Claimant;
@@ -88,6 +94,8 @@ class Admission {
   std::map<std::string, Owner> owners_;
   std::list<Claim> claims_;
   std::list<Running> running_;
+  bool is_draining_ = false;
+  std::condition_variable_any idle_;  ///< no task runs
 };
 
 /// The right to run one task; given back by the destructor.

@@ -2,6 +2,7 @@
 // implementations.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -26,6 +27,9 @@ enum class Outcome {
   out_of_memory,      ///< the worker ran out of memory, after retries
   cancelled,          ///< stopped, or given up with its run
 };
+
+/// Name of an outcome: "succeeded", "out_of_memory".
+std::string to_string(Outcome outcome);
 
 /// Outcome of a task and its explanation.
 struct TaskResult {
@@ -93,6 +97,10 @@ class Executor {
   /// From now on, a stop leaves those tasks running that survive this process; the next run() with
   /// these tasks, in any process, takes them up again. No effect if tasks end with this process.
   virtual void leave_tasks() {}
+
+  /// Starts no more tasks on this machine: they wait until a stop is requested. Blocks until none
+  /// runs, for at most `limit` or until a request by `stop`.
+  virtual void drain(std::chrono::milliseconds /*limit*/, const std::stop_token& /*stop*/) {}
 
   /// Work of the cluster's nodes for the job in a folder; empty without a cluster.
   virtual std::vector<NodeWork> nodes_of(const JobFolder& /*folder*/) const { return {}; }

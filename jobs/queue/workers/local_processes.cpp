@@ -209,8 +209,15 @@ class Batch {
       const bool memory_ran_out = kills_for_memory() > worker->kills_before;
       TaskResult result = task_result({status, worker->error, worker->timeout, memory_ran_out},
                                       folder_.log_file(tasks_[worker->task]));
+      const bool is_cancelled = result.outcome != Outcome::succeeded && worker->kill_at;
+      if (options_.meters != nullptr) {
+        const std::chrono::duration<double> took = options_.now() - worker->begun;
+        options_.meters->note(tasks_[worker->task],
+                              to_string(is_cancelled ? Outcome::cancelled : result.outcome),
+                              took.count());
+      }
       if (result.outcome == Outcome::succeeded) continue;
-      if (worker->kill_at) {
+      if (is_cancelled) {
         results_[worker->task].outcome = Outcome::cancelled;
       } else {
         fail(worker->task, std::move(result));

@@ -10,6 +10,7 @@
 #include "base/compute/steady_time.h"
 #include "jobs/queue/workers/admission.h"
 #include "jobs/queue/workers/executor.h"
+#include "jobs/queue/workers/task_meters.h"
 
 namespace throng::jobs {
 
@@ -39,6 +40,8 @@ struct LocalProcessesOptions {
   bool limits_by_need = false;
   /// Time between SIGTERM and SIGKILL for a worker that is to end.
   double grace_s = 2;
+  /// Receives the attempts that end; may be null.
+  std::shared_ptr<TaskMeters> meters = {};
   /// Clock of pauses, leases and durations.
   SteadyNow now = &steady_now;
 };
@@ -49,10 +52,15 @@ class LocalProcesses final : public Executor {
  public:
   explicit LocalProcesses(LocalProcessesOptions options = {});
 
+  const std::shared_ptr<TaskMeters>& meters() const { return options_.meters; }
+
   using Executor::run;
   std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
                               const OnProgress& on_progress, std::stop_token stop,
                               const Share& share) override;
+  void drain(std::chrono::milliseconds limit, const std::stop_token& stop) override {
+    admission_->drain(limit, stop);
+  }
 
  private:
   LocalProcessesOptions options_;

@@ -1,9 +1,12 @@
 #include "server/access/keys.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <map>
 
+#include "base/error.h"
 #include "base/files/files.h"
 #include "spec/job/spec.h"
 #include "tests/server/api_fixture.h"
@@ -15,6 +18,9 @@ using ::testing::HasSubstr;
 
 constexpr const char* kFlight =
     R"({"scenario": "yard", "drones": [{"id": "d", "start": [0, 0, 9]}]})";
+
+constexpr std::int64_t kPastMs = 1'000'000'000'000;  // in 2001
+constexpr std::int64_t kFarMs = 4'102'444'800'000;   // in 2100
 
 class KeysTest : public ApiTest {
  protected:
@@ -167,6 +173,123 @@ TEST_F(KeysTest, WrongFieldsOfAKeyAreNamed) {
     EXPECT_EQ(json::parse(answer->body)["errors"][0]["pointer"], pointer) << body;
   }
   EXPECT_EQ(keys.list().size(), 1U);
+}
+
+TEST_F(KeysTest, AKeyExpires) {
+  const std::string admin = keys.create("admin", Scope::admin);
+  const std::string later = keys.create("later", Scope::read, 0, 0, 0, kFarMs);
+  const std::string expired = keys.create("expired", Scope::admin, 0, 0, 0, kPastMs);
+  EXPECT_EQ(get("/v1/jobs", with(later))->status, 200);
+  const httplib::Result refused = get("/v1/jobs", with(expired));
+  expect_problem(refused, 401);
+  EXPECT_THAT(refused->body, HasSubstr("this key expired at 2001-09-09T01:46:40.000Z"));
+  const json sign_in = {{"key", expired}};
+  EXPECT_THAT(client().Post("/v1/session", sign_in.dump(), "application/json")->body,
+              HasSubstr("this key expired at"));
+  EXPECT_THAT(get("/v1/jobs", with(expired.substr(0, expired.size() - 1) + "a"))->body,
+              HasSubstr("not known"))
+      << "whoever knows the id alone learns nothing";
+  // Streams end, and the service with no other key is not open to everybody.
+  EXPECT_FALSE(keys.is_valid({expired.substr(7, 8), Scope::admin}));
+  EXPECT_TRUE(keys.is_valid({later.substr(7, 8), Scope::read}));
+  const json list = json::parse(get("/v1/keys", with(admin))->body)["keys"];
+  std::map<std::string, json> expiries;
+  for (const json& key : list) expiries[key["name"]] = key["expires_at"];
+  EXPECT_EQ(expiries["admin"], nullptr);
+  EXPECT_EQ(expiries["expired"], "2001-09-09T01:46:40.000Z");
+  EXPECT_EQ(expiries["later"], "2100-01-01T00:00:00.000Z");
+}
+
+TEST_F(KeysTest, WorkOfAKeyThatExpiresGoesOn) {
+  const std::string token = keys.create("soon", Scope::submit, 0, 0, 0, kFarMs);
+  Gate gate(executor);
+  const httplib::Result answer = client().Post("/v1/jobs", with(token), kJob, "application/json");
+  const std::string id = json::parse(answer->body)["id"];
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+  SQLite::Database(data.path() / "keys.sqlite", SQLite::OPEN_READWRITE)
+      .exec(fmt::format("UPDATE key SET expires_ms = {}", kPastMs));
+  expect_problem(get("/v1/jobs", with(token)), 401);
+  EXPECT_EQ(RevokedKeys(keys, service.queue(), service.live()).end_work().jobs, 0);
+  gate.open();
+  EXPECT_TRUE(reaches(service, id, jobs::JobState::succeeded));
+}
+
+TEST_F(KeysTest, ExpiriesAreDatesTimesAndDurations) {
+  const std::string admin = keys.create("admin", Scope::admin);
+  const auto made = [&](const json& expires_at) {
+    const json body = {{"name", "a"}, {"expires_at", expires_at}};
+    return client().Post("/v1/keys", with(admin), body.dump(), "application/json");
+  };
+  const std::pair<json, json> times[] = {
+      {nullptr, nullptr},
+      {"2100-02-28", "2100-02-28T00:00:00.000Z"},
+      {"2100-02-28T12:30:00Z", "2100-02-28T12:30:00.000Z"},
+      {"2100-02-28T12:30:00.25+02:00", "2100-02-28T10:30:00.000Z"},
+      {"2100-01-01T00:30:00-01:30", "2100-01-01T02:00:00.000Z"}};
+  for (const auto& [given, expected] : times) {
+    const httplib::Result answer = made(given);
+    ASSERT_EQ(answer->status, 201) << answer->body;
+    EXPECT_EQ(json::parse(answer->body)["expires_at"], expected) << given;
+  }
+  for (const char* duration : {"1h", "30d", "99999w"}) {
+    const httplib::Result answer = made(duration);
+    ASSERT_EQ(answer->status, 201) << answer->body;
+    const std::string key = json::parse(answer->body)["key"];
+    EXPECT_EQ(get("/v1/jobs", with(key))->status, 200) << duration;
+  }
+  for (const json& wrong : std::vector<json>{"",
+                                             "soon",
+                                             "30",
+                                             "d",
+                                             "0d",
+                                             "-1d",
+                                             "1.5d",
+                                             "30 d",
+                                             "100000d",
+                                             "30m",
+                                             "2100-02-29",
+                                             "2100-2-3",
+                                             " 2100-02-03",
+                                             "2100-02-03T12:00:00",
+                                             "2100-02-03T25:00:00Z",
+                                             "2100-02-03T12:00:00+2:00",
+                                             "2100-02-03T12:00:00+99:00",
+                                             "2100-02-03T12:00:00.Z",
+                                             "2100-02-03T12:00:00Zulu",
+                                             "2001-01-01",
+                                             "1999-12-31T23:59:59Z",
+                                             30,
+                                             true}) {
+    const httplib::Result answer = made(wrong);
+    expect_problem(answer, 400);
+    EXPECT_EQ(json::parse(answer->body)["errors"][0]["pointer"], "/expires_at") << wrong;
+  }
+}
+
+TEST(KeyFile, OfAnOlderProgramIsTakenOverAndOneOfANewerProgramIsRefused) {
+  const jobs::TemporaryFolder folder;
+  const auto exec = [&](const std::string& statement) {
+    SQLite::Database(folder.path() / "keys.sqlite", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+        .exec(statement);
+  };
+  exec(
+      "CREATE TABLE key (id TEXT PRIMARY KEY, name TEXT NOT NULL, hash TEXT NOT NULL, scope TEXT "
+      "NOT NULL, max_active INTEGER NOT NULL DEFAULT 0, created_ms INTEGER NOT NULL, revoked_ms "
+      "INTEGER NOT NULL DEFAULT 0) WITHOUT ROWID");
+  exec("INSERT INTO key (id, name, hash, scope, created_ms) VALUES ('a', 'old', 'h', 'admin', 5)");
+  {
+    const Keys keys(folder.path());
+    ASSERT_EQ(keys.list().size(), 1U);
+    EXPECT_EQ(keys.list()[0].expires_ms, 0);
+  }
+  exec("PRAGMA user_version = 7");
+  try {
+    const Keys keys(folder.path());
+    ADD_FAILURE() << "expected an error";
+  } catch (const EnvironmentError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("version 7; this program (throng "));
+    EXPECT_THAT(error.what(), HasSubstr("knows up to 1"));
+  }
 }
 
 TEST_F(KeysTest, ScopesLimitAKey) {

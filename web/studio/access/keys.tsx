@@ -27,10 +27,12 @@ function NewKey({ onMade }: { onMade: (key: Key) => void }) {
   const [jobs, setJobs] = useState("");
   const [disk, setDisk] = useState("");
   const [priority, setPriority] = useState("0");
+  const [expiry, setExpiry] = useState("");
   const [error, setError] = useState<ApiError | null>(null);
   const submit = async (event: Event) => {
     event.preventDefault();
-    const body = { name, scope, max_jobs: numberIn(jobs), max_bytes: numberIn(disk, kGiB), max_priority: numberIn(priority) };
+    const limits = { max_jobs: numberIn(jobs), max_bytes: numberIn(disk, kGiB), max_priority: numberIn(priority) };
+    const body = { name, scope, ...limits, expires_at: expiry.trim() || null };
     try {
       onMade(await sendJson<Key>("POST", "/v1/keys", JSON.stringify(body)));
       setName("");
@@ -43,6 +45,7 @@ function NewKey({ onMade }: { onMade: (key: Key) => void }) {
     ["Jobs at once", "", jobs, setJobs, "any number"],
     ["Disk", "GiB", disk, setDisk, "any"],
     ["Highest priority", "-100 to 100", priority, setPriority, "0"],
+    ["Expires", "30d, 12h or a date", expiry, setExpiry, "never"],
   ];
   return (
     <form onSubmit={submit}>
@@ -67,7 +70,12 @@ function NewKey({ onMade }: { onMade: (key: Key) => void }) {
               <span class="field-name">
                 {label} {unit && <span class="unit">{unit}</span>}
               </span>
-              <input inputMode="numeric" value={value} placeholder={placeholder} onInput={(event) => set(event.currentTarget.value)} />
+              <input
+                inputMode={label === "Expires" ? "text" : "numeric"}
+                value={value}
+                placeholder={placeholder}
+                onInput={(event) => set(event.currentTarget.value)}
+              />
             </label>
           ))}
         </div>
@@ -92,6 +100,7 @@ function KeyTable({ keys, onRevoke }: { keys: Key[]; onRevoke: (key: Key) => voi
             <th>Scope</th>
             <th class="wide-only">Limits</th>
             <th class="wide-only">Made</th>
+            <th class="wide-only">Expires</th>
             <th>
               <span class="hidden">Actions</span>
             </th>
@@ -108,9 +117,12 @@ function KeyTable({ keys, onRevoke }: { keys: Key[]; onRevoke: (key: Key) => voi
                 {key.max_jobs ?? "any"} jobs, {key.max_bytes === null ? "any disk" : bytesText(key.max_bytes)}, priority {key.max_priority}
               </td>
               <td class="wide-only quiet-text">{timeText(key.created_at)}</td>
+              <td class="wide-only quiet-text">{key.expires_at ? timeText(key.expires_at) : "never"}</td>
               <td>
                 {key.revoked_at ? (
                   <span class="quiet-text">revoked {timeText(key.revoked_at)}</span>
+                ) : key.expires_at && Date.parse(key.expires_at) <= Date.now() ? (
+                  <span class="quiet-text">expired {timeText(key.expires_at)}</span>
                 ) : (
                   <button type="button" class="button small danger-text" aria-label={`Revoke ${key.name}`} onClick={() => onRevoke(key)}>
                     Revoke

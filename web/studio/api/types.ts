@@ -475,6 +475,8 @@ export interface Key {
   created_at: string | null;
   /** Time when the key was revoked; null: it is valid. */
   revoked_at: string | null;
+  /** Time from which on callers with the key get 401; null: never. */
+  expires_at: string | null;
   /** The key itself, which callers send; only in the answer to its creation. */
   key?: string;
   links: Record<string, string>;

@@ -77,6 +77,20 @@ TEST_F(StoreTest, AStoreOfVersionOneIsTakenOver) {
   }
 }
 
+TEST_F(StoreTest, AStoreOfANewerProgramIsRefusedWithBothVersions) {
+  { const Store store(folder.path(), clock()); }
+  SQLite::Database(folder.path() / "jobs.sqlite", SQLite::OPEN_READWRITE)
+      .exec("PRAGMA user_version = 1000");
+  try {
+    const Store store(folder.path(), clock());
+    ADD_FAILURE() << "expected an error";
+  } catch (const EnvironmentError& error) {
+    EXPECT_NE(std::string(error.what()).find("version 1000; this program (throng "),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(StoreTest, CalibrationsAreListedApart) {
   Store store(folder.path(), clock());
   const JobRow dataset = store.add({"d", "{}"}).row;

@@ -241,5 +241,16 @@ TEST(Admission, AJobThatIsAheadButDoesNotAskHoldsBackNobody) {
   EXPECT_TRUE(other.try_to_begin());
 }
 
+TEST(Admission, DrainsUntilNoTaskRuns) {
+  Admission admission({.workers = 2});
+  TestJob job(admission, "a", "j1", 3);
+  ASSERT_TRUE(job.try_to_begin());
+  admission.drain(0ms, {});  // one runs when the limit has passed
+  EXPECT_FALSE(job.try_to_begin());
+  job.running.clear();
+  admission.drain(24h, {});  // returns at once
+  EXPECT_FALSE(job.try_to_begin()) << "none is begun afterwards";
+}
+
 }  // namespace
 }  // namespace throng::jobs
