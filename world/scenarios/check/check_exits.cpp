@@ -152,7 +152,8 @@ void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Rout
     }
   }
   if (!any_open) {
-    findings.error("/exits", "no open exit", "at least one", "add an exit, or open one");
+    findings.error("/exits", "no open exit, so that nobody can leave", "at least one",
+                   "add an exit, or open one");
   } else if (!any_demand) {
     findings.error("/exits", "no exit that anybody heads for", "at least one",
                    "let a state of the behavior file choose among the exits' goals");
