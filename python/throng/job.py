@@ -277,7 +277,7 @@ class Environment(Part):
 @dataclass
 class Capture(Part):
     """Times of the frames of every run and camera: from_s, then every 1 / rate_hz, up to to_s. The run lasts until
-    to_s."""
+    run_to_s."""
 
     _: KW_ONLY
     rate_hz: float | None = None
@@ -285,7 +285,10 @@ class Capture(Part):
     from_s: float | None = None
     """Time of the first frame, from the run's start. Unit: s. Default: 0."""
     to_s: float | None = None
-    """Maximum time of a frame; the run's duration. Unit: s. Default: 60."""
+    """Maximum time of a frame. Unit: s. Default: 60."""
+    run_to_s: float | None = None
+    """End of the run, if it goes on after the last frame, so that figures tell of an evacuation to its end; default:
+    to_s. Unit: s."""
 
 
 @dataclass
@@ -671,7 +674,7 @@ class Job(Part):
     without drones: figures without images."""
     capture: Capture | None = None
     """Times of the frames of every run and camera: from_s, then every 1 / rate_hz, up to to_s. The run lasts until
-    to_s."""
+    run_to_s."""
     quality: Literal["draft", "standard", "high"] | None = None
     """Image quality: draft (quick: flat colors, no shadows, coarse people), standard, high (soft shadows, finer
     people, four color samples per pixel). Default: "standard"."""

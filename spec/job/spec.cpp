@@ -33,9 +33,14 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
 }
 
 void check_times(const CaptureSpec& capture, std::vector<Problem>& problems) {
-  if (capture.to_s >= capture.from_s) return;
-  problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
-                      fmt::format("at least from_s, which is {}", capture.from_s)});
+  if (capture.to_s < capture.from_s) {
+    problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
+                        fmt::format("at least from_s, which is {}", capture.from_s)});
+  }
+  if (capture.run_to_s && *capture.run_to_s < capture.to_s) {
+    problems.push_back({"", "/capture/run_to_s", fmt::format("{}", *capture.run_to_s),
+                        fmt::format("at least to_s, which is {}", capture.to_s)});
+  }
 }
 
 // A drone begins at its start or where it aims at somebody.
