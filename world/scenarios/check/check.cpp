@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "world/extended_document.h"
+#include "world/scenarios/blueprint/blueprint.h"
 #include "world/scenarios/blueprint/load_scenario.h"
 #include "world/scenarios/check/check_scenario.h"
 #include "world/scenarios/check/survey.h"
@@ -15,21 +17,23 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The remedy of an error that a reader of files has found.
-std::string suggest_remedy(const Problem& problem) {
+std::string suggest_remedy(const Problem& problem, bool of_blueprint) {
   if (problem.found.find("does not exist") != std::string::npos) {
     return "put the file beside the scenario, or correct its name";
   }
   if (problem.where.starts_with("line")) {
     return "correct this element: docs/reference/crowd_vocabulary.md lists what each may say";
   }
-  return "correct this field: docs/reference/scenario.md lists what each may say";
+  return fmt::format("correct this field: docs/reference/{}.md lists what each may say",
+                     of_blueprint ? "blueprint" : "scenario");
 }
 
-std::vector<Finding> to_findings(const InputError& error, const std::string& source) {
+std::vector<Finding> to_findings(const InputError& error, const std::string& source,
+                                 bool of_blueprint) {
   std::vector<Finding> findings;
   for (Problem problem : error.problems()) {
     if (problem.source.empty()) problem.source = source;
-    std::string remedy = suggest_remedy(problem);
+    std::string remedy = suggest_remedy(problem, of_blueprint);
     findings.push_back({Severity::error, std::move(problem), std::move(remedy)});
   }
   return findings;
@@ -40,10 +44,19 @@ void append(std::vector<Finding> more, std::vector<Finding>& all) {
 }
 
 std::vector<Finding> check_file(const fs::path& file) {
+  const std::string source = file.string();
+  bool of_blueprint = world::is_blueprint_name(source);
   try {
-    return check(load_scenario(file, world::id_from_file(file)), file.string());
+    const world::ExtendedDocument document = world::read_extended(file, source);
+    of_blueprint = is_blueprint(document.whole, file);
+    std::vector<Finding> findings = check(load_scenario(file, world::id_from_file(file)), source);
+    for (Finding& finding : findings) {
+      if (finding.problem.source != source) continue;  // of the crowd's files
+      finding.problem = document.in_their_files({std::move(finding.problem)}).front();
+    }
+    return findings;
   } catch (const InputError& error) {
-    return to_findings(error, file.string());
+    return to_findings(error, source, of_blueprint);
   }
 }
 
@@ -55,7 +68,8 @@ std::string Finding::text() const {
 }
 
 std::vector<Finding> check(const world::Scenario& scenario, const std::string& source) {
-  Findings findings(source);
+  const bool of_blueprint = scenario.built_crowd != nullptr;
+  Findings findings(source, of_blueprint);
   check_sizes(scenario, findings);
   check_drawn_ground(scenario, findings);
   check_buildings(scenario, findings);
@@ -76,10 +90,10 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
     check_people(scenario, loaded, routes, findings);
     append(findings.take(), all);
     for (const Problem& warning : loaded.warnings) {
-      all.push_back({Severity::warning, warning, suggest_remedy(warning)});
+      all.push_back({Severity::warning, warning, suggest_remedy(warning, of_blueprint)});
     }
   } catch (const InputError& error) {
-    append(to_findings(error, source), all);
+    append(to_findings(error, source, of_blueprint), all);
   }
   return all;
 }
