@@ -135,8 +135,7 @@ world::TraceHeader make_header(const world::Scenario& scenario, const RunSpec& s
 std::vector<Problem> run_warnings(const world::Scenario& scenario, const CrowdSource& crowd,
                                   const std::vector<PlannedDrone>& drones, const HoldWarnings& hold,
                                   const PropWatch& props) {
-  // Who wrote a blueprint did not write its crowd's elements; scenarios::check() says the same of
-  // it.
+  // Authors of blueprints do not know the elements of a crowd; scenarios::check() speaks to them.
   std::vector<Problem> warnings = scenario.built_crowd ? std::vector<Problem>() : crowd.warnings();
   for (auto& warning : idle_goals(drones)) warnings.push_back(std::move(warning));
   for (auto& warning : possible_meetings(drones)) warnings.push_back(std::move(warning));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "world/extended_document.h"
+#include "world/scenario_id.h"
 #include "world/scenarios/blueprint/blueprint.h"
 #include "world/scenarios/blueprint/load_scenario.h"
 #include "world/scenarios/check/check_scenario.h"
@@ -99,13 +100,25 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
 }
 
 std::vector<Finding> check_files(const fs::path& file_or_folder) {
-  if (fs::is_regular_file(file_or_folder)) return check_file(file_or_folder);
+  const auto name_finding = [](Problem problem) {
+    return Finding{Severity::warning, std::move(problem), "rename the file or the folder"};
+  };
+  if (fs::is_regular_file(file_or_folder)) {
+    std::vector<Finding> findings = check_file(file_or_folder);
+    if (std::optional<Problem> problem = world::find_name_problem(file_or_folder.filename())) {
+      findings.push_back(name_finding(*std::move(problem)));
+    }
+    return findings;
+  }
   if (!fs::is_directory(file_or_folder)) {
     throw InputError({file_or_folder.string(), "", "nothing", "a scenario file or a folder"});
   }
   std::vector<Finding> findings;
+  for (Problem& problem : world::list_unnamed_scenarios(file_or_folder)) {
+    findings.push_back(name_finding(std::move(problem)));
+  }
   const std::vector<std::string> ids = world::list_scenarios(file_or_folder);
-  if (ids.empty()) {
+  if (ids.empty() && findings.empty()) {
     throw InputError(
         {file_or_folder.string(), "", "no scenario",
          "a folder with scenario files, whose names are words of [a-z0-9_] and .json"});

@@ -96,6 +96,16 @@ TEST_F(CheckBlueprint, SendsReadersOfMistakesToItsPage) {
   EXPECT_THAT(found[0].text(), HasSubstr("unknown field \"crowd\""));
 }
 
+TEST_F(CheckBlueprint, NamesFilesThatNoJobCanName) {
+  const auto file = folder.write("My hall.blueprint.json", square.dump());
+  for (const auto& checked : {file, folder.path()}) {
+    const std::vector<Finding> found = check_files(checked);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].severity, Severity::warning);
+    EXPECT_THAT(found[0].text(), HasSubstr("such as \"my_hall\""));
+  }
+}
+
 TEST_F(CheckBlueprint, NamesTheFileThatSaysIt) {
   square["exits"][0]["open"] = square["exits"][1]["open"] = false;
   folder.write("base.blueprint.json", square.dump());
