@@ -42,9 +42,9 @@ bool is_scenario_id(std::string_view id) {
 
 enum class Content { scenario, unknown, something_else };
 
-/// What a file holds: parts of a scenario, nothing that its reader would not report, or sound JSON
+/// Says whether a file holds parts of a scenario, what its reader reports, or sound JSON
 /// of another kind, such as a job, which may have a "crowd", or a study.
-Content content_of(const fs::path& file) {
+Content classify(const fs::path& file) {
   nlohmann::json value;
   try {
     value = parse_json_or_discard(read_file(file));
@@ -158,7 +158,7 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
   std::vector<std::string> ids;
   for (NamedFile& file : json_files(folder)) {
     if (!is_scenario_id(file.id)) continue;
-    if (content_of(folder / file.name) != Content::something_else) {
+    if (classify(folder / file.name) != Content::something_else) {
       ids.push_back(std::move(file.id));
     }
   }
@@ -179,7 +179,7 @@ std::vector<Problem> list_unnamed_scenarios(const fs::path& folder) {
   std::vector<Problem> problems;
   for (const NamedFile& file : json_files(folder)) {
     std::optional<Problem> problem = find_name_problem(file.name);
-    if (problem && content_of(folder / file.name) == Content::scenario) {
+    if (problem && classify(folder / file.name) == Content::scenario) {
       problems.push_back(*std::move(problem));
     }
   }

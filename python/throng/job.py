@@ -253,8 +253,9 @@ class Environment(Part):
 
     _: KW_ONLY
     time_of_day: str | Distribution | None = None
-    """Solar time at the run's start; sets the sun for the whole run. Street lamps and windows are lit while it is
-    below the horizon. Unit: HH:MM. Default: "15:30"."""
+    """Solar time at the run's start; sets the sun for the whole run: HH:MM, or midnight, dawn, sunrise, noon, sunset
+    or dusk, also as "sunset-20min" or "dusk+1h". Street lamps and windows are lit while it is below the horizon.
+    Unit: HH:MM. Default: "15:30"."""
     latitude_deg: float | Distribution | None = None
     """Latitude for the sun's position; north is positive. Unit: degrees. Default: 45."""
     day_of_year: int | Distribution | None = None

@@ -13,6 +13,7 @@
 #include "spec/job/resolved_job.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/job/schema.h"
+#include "spec/sun/sun_times.h"
 
 namespace throng::jobs {
 
@@ -62,6 +63,7 @@ json parse_with_schema(std::string_view text, const std::string& source) {
   json value = parse_json(text, source, kJobJsonLimits);
   std::vector<Problem> problems = schema_problems(value, source);
   if (!problems.empty()) throw InputError(std::move(problems));
+  resolve_sun_times(value, problems);
   return value;
 }
 
