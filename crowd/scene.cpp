@@ -97,7 +97,10 @@ Scene load_scene(const Element& experiment, const std::vector<std::string>& stat
   Scene scene;
   GroupContext context{profiles, state_names, crowd.seed, sequences, social_groups};
   crowd.obstacles.build();
-  for (const Element& group : groups) load_group(group, context, crowd, scene.processes);
+  for (const Element& group : groups) {
+    scene.first_agents.push_back(crowd.agents.count());
+    load_group(group, context, crowd, scene.processes);
+  }
   if (social_groups) scene.modifiers.push_back(make_social_group_modifier(*social_groups));
   obstacles.report(crowd);
   for (Profile& profile : profiles) scene.profile_modifiers.push_back(std::move(profile.modifiers));

@@ -1,6 +1,7 @@
 // Menge's scene files: agents, their profiles and start positions, and obstacles.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace throng::crowd {
 
 /// Parts of a scene that are completed after the behavior file has been read.
 struct Scene {
+  std::vector<std::size_t> first_agents;                ///< of each <AgentGroup>
   std::vector<std::vector<Element>> profile_modifiers;  ///< the <VelModifier>s of each profile
   std::vector<std::unique_ptr<Process>> processes;      ///< arrivals of agents
   /// Modifiers of social groups; they precede those of the behavior file.

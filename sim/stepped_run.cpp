@@ -50,15 +50,15 @@ void check_exits(const world::Scenario& scenario, std::vector<Problem>& problems
 }
 
 // A first move of every goal, to learn whether the behavior file has it.
-void check_goals(const std::vector<PlannedDrone>& drones, CrowdSource& crowd,
-                 std::vector<Problem>& problems) {
+void check_goals(const world::Scenario& scenario, const std::vector<PlannedDrone>& drones,
+                 CrowdSource& crowd, std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < drones.size(); ++i) {
     if (!drones[i].moves_goal) continue;
     const auto [set, goal] = *drones[i].moves_goal;
     try {
       crowd.move_goal(set, goal, drones[i].start.head<2>().cast<float>());
     } catch (const InputError&) {
-      problems.push_back(unknown_goal(i, *drones[i].moves_goal));
+      problems.push_back(unknown_goal(i, *drones[i].moves_goal, scenario));
     }
   }
 }
@@ -132,9 +132,11 @@ world::TraceHeader make_header(const world::Scenario& scenario, const RunSpec& s
   return header;
 }
 
-std::vector<Problem> run_warnings(const CrowdSource& crowd, const std::vector<PlannedDrone>& drones,
-                                  const HoldWarnings& hold, const PropWatch& props) {
-  std::vector<Problem> warnings = crowd.warnings();
+std::vector<Problem> run_warnings(const world::Scenario& scenario, const CrowdSource& crowd,
+                                  const std::vector<PlannedDrone>& drones, const HoldWarnings& hold,
+                                  const PropWatch& props) {
+  // Authors of blueprints do not know the elements of a crowd; scenarios::check() speaks to them.
+  std::vector<Problem> warnings = scenario.built_crowd ? std::vector<Problem>() : crowd.warnings();
   for (auto& warning : idle_goals(drones)) warnings.push_back(std::move(warning));
   for (auto& warning : possible_meetings(drones)) warnings.push_back(std::move(warning));
   warnings.insert(warnings.end(), hold.warnings().begin(), hold.warnings().end());
@@ -162,7 +164,7 @@ Checked checked(const world::Scenario& scenario, const RunSpec& spec,
   problems.insert(problems.end(), of_people.begin(), of_people.end());
   run.crowd = std::move(people.crowd);
   run.roles = std::move(people.roles);
-  check_goals(run.drones, *run.crowd, problems);
+  check_goals(scenario, run.drones, *run.crowd, problems);
   return run;
 }
 
@@ -263,7 +265,7 @@ void SteppedRun::step() {
 
 std::vector<Problem> SteppedRun::finish() {
   state_->flight.finish();
-  return run_warnings(state_->crowd, state_->drones, state_->hold, state_->props);
+  return run_warnings(state_->scenario, state_->crowd, state_->drones, state_->hold, state_->props);
 }
 
 }  // namespace throng::sim

@@ -13,6 +13,7 @@
 #include "cli/shell/commands.h"
 #include "cli/shell/input_file.h"
 #include "world/scenario.h"
+#include "world/scenario_id.h"
 #include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::cli {
@@ -28,6 +29,9 @@ void list() {
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
+  }
+  for (const Problem& problem : world::list_unnamed_scenarios(folder)) {
+    fmt::print(stderr, "throng: warning: {}\n", problem.text());
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/geometry/angle.h"
 #include "base/text/words.h"
+#include "spec/sun/sun.h"
 
 namespace throng::cli {
 
@@ -44,6 +47,22 @@ void print_view(const json& view) {
   fmt::print("{}\n", line);
 }
 
+/// The time, and where the sun stands if it does not differ between runs.
+void print_light(const json& environment) {
+  const json& time = environment["time_of_day"];
+  const json& latitude = environment["latitude_deg"];
+  const json& day = environment["day_of_year"];
+  if (!time.is_string() || !latitude.is_number() || !day.is_number()) {
+    fmt::print("  {:<10}at {}\n", "light", time.dump());
+    return;
+  }
+  const std::string text = time;
+  const double hours = std::stod(text) + std::stod(text.substr(3)) / 60;
+  const double elevation_deg = jobs::sun_at(hours, latitude, day).elevation_rad / kDegree;
+  fmt::print("  {:<10}{} solar time, the sun {:.1f} degrees {} the horizon\n", "light", text,
+             std::abs(elevation_deg), elevation_deg < 0 ? "below" : "above");
+}
+
 /// A job whose scenario has errors runs, with figures that may say nothing.
 std::string headline(const json& warnings) {
   const auto errors = std::count_if(warnings.begin(), warnings.end(), [](const json& warning) {
@@ -64,6 +83,7 @@ void print_job_summary(const json& answer, const std::string& file, int cores) {
   fmt::print("{}: {}\n", file, headline(warnings));
   fmt::print("  {:<10}{}, {}\n", "people", answer["people"].get<std::int64_t>(),
              counted(answer["runs"], "run"));
+  print_light(answer["job"]["environment"]);
   const std::int64_t images = answer["frames"];
   fmt::print("  {:<10}{}\n", "images",
              images == 0 ? "none without drones: the job makes traces and figures"

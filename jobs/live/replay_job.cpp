@@ -27,6 +27,7 @@ jobs::JobSpec replay_job(const jobs::JobSpec& flown, const sim::RemotePilots& pi
   std::erase_if(job.randomize,
                 [](const jobs::RandomField& field) { return field.path.starts_with("capture."); });
   job.capture.to_s = duration_s;
+  job.capture.run_to_s.reset();
   if (job.capture.from_s >= duration_s) job.capture.from_s = 0;
   return job;
 }

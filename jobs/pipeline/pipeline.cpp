@@ -44,7 +44,7 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run, std::vector<Problem>* n
   const JobSpec job = job_of_run(whole_job, run);
   sim::RunSpec spec;
   spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
-  spec.duration_s = job.capture.to_s;
+  spec.duration_s = job.capture.end_s();
   if (!job.drones.empty()) spec.images_from_s = job.capture.from_s;
   spec.people = job.agents;
   spec.crowd = job.crowd;

@@ -55,7 +55,7 @@ class Supervision {
                                 run.seed,
                                 Stage::waiting,
                                 0,
-                                job.capture.to_s,
+                                job.capture.end_s(),
                                 0,
                                 job.frames_per_camera() * cameras,
                                 {}});

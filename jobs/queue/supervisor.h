@@ -32,7 +32,7 @@ struct RunProgress {
   std::uint64_t seed = 0;
   Stage stage = Stage::waiting;
   double simulated_s = 0;        ///< simulated time so far
-  double duration_s = 0;         ///< simulated time at the end: CaptureSpec::to_s
+  double duration_s = 0;         ///< simulated time at the end: CaptureSpec::end_s()
   std::int64_t images_done = 0;  ///< over all cameras
   std::int64_t images_total = 0;
   Pace pace;

@@ -298,6 +298,23 @@ std::string html_section(const char* title, const std::string& explanation, cons
          html_table(table);
 }
 
+/// All cases in one chart.
+json all_curves(const Study& study, const Outcomes& outcomes) {
+  double until_s = 0;
+  for (std::size_t c = 0; c < study.cases.size(); ++c) {
+    until_s = std::max(until_s, shown_time_s(study.cases[c], outcomes[c]));
+  }
+  json curves = json::array();
+  for (std::size_t c = 0; c < study.cases.size(); ++c) {
+    for (std::size_t p = 0; p < study.policies.size(); ++p) {
+      std::string name = study.cases[c].title;
+      if (study.policies.size() > 1) name += ", " + study.policies[p].title;
+      curves.push_back(curve_json(name, outcomes[c][p], until_s));
+    }
+  }
+  return {{"curves", std::move(curves)}, {"convergence", json::array()}};
+}
+
 std::string html_of_study(const Study& study, const Outcomes& outcomes, const Summary& summary) {
   Page page;
   page.title = study.name;
@@ -305,6 +322,11 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes, const Su
       fmt::format("<h1>{}</h1>\n<p>{} {}. Curves: mean over the runs.</p>\n",
                   escaped_markup(study.name), escaped_markup(case_explanation(study)), kGenerator);
   json cases = json::array();
+  if (study.cases.size() > 1) {
+    page.body += "<h2>All cases</h2>\n" +
+                 chart_frame("People out", fmt::format("data-chart=\"policies\" data-case=\"{}\"",
+                                                       study.cases.size()));
+  }
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
     json curves = json::array();
     const double until_s = shown_time_s(study.cases[c], outcomes[c]);
@@ -331,6 +353,7 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes, const Su
     page.body += html_section(kDifferenceTitle, case_difference_explanation(study),
                               case_difference_table(study, summary.case_differences));
   }
+  if (study.cases.size() > 1) cases.push_back(all_curves(study, outcomes));
   return page_html(page, {{"cases", std::move(cases)}});
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -52,6 +53,12 @@ std::string runs_table(const std::vector<MeasuredRun>& runs) {
   return html + "</table>\n";
 }
 
+/// Whether an exit was closed all the time, so that 0 people are not its figure.
+bool was_closed(const metrics::ExitTotals& exit) {
+  const double all_s = std::accumulate(exit.state_s.begin(), exit.state_s.end(), 0.0);
+  return all_s > 0 && exit.state_s[static_cast<std::size_t>(metrics::ExitState::closed)] == all_s;
+}
+
 /// One row per run that adds up to its people.
 std::string people_table(const std::vector<MeasuredRun>& runs) {
   std::string html = "<table><tr><th>run</th>" + header("people_counts", "people");
@@ -66,7 +73,10 @@ std::string people_table(const std::vector<MeasuredRun>& runs) {
   for (const MeasuredRun& run : runs) {
     const metrics::PeopleCounts& counts = run.metrics.counts;
     html += fmt::format("<tr><td>{}</td><td>{}</td>", escaped_markup(run.name), counts.people);
-    for (const auto& exit : counts.left_by) html += fmt::format("<td>{}</td>", exit.people);
+    for (std::size_t e = 0; e < counts.left_by.size(); ++e) {
+      const bool is_closed = counts.left_by[e].people == 0 && was_closed(run.metrics.exits[e]);
+      html += is_closed ? "<td>closed</td>" : fmt::format("<td>{}</td>", counts.left_by[e].people);
+    }
     html += fmt::format("<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         counts.left_by_no_exit, counts.inside, counts.casualties,
                         counts.vanished_inside, counts.turned_back, counts.never_inside);
@@ -96,6 +106,12 @@ std::string warning_list(const std::vector<MeasuredRun>& runs) {
   return html;
 }
 
+std::string closed_note(const metrics::ExitTotals& exit) {
+  const double closed_s = exit.state_s[static_cast<std::size_t>(metrics::ExitState::closed)];
+  if (was_closed(exit)) return " (closed)";
+  return closed_s > 0 ? fmt::format(" (closed for {:.1f} s)", closed_s) : "";
+}
+
 std::string exits_table(const MeasuredRun& run) {
   static constexpr std::array kColumns = {
       std::pair{"exits[].width_m", "width (m)"},
@@ -121,12 +137,12 @@ std::string exits_table(const MeasuredRun& run) {
       return flow ? fmt::format("{:.2f}", *flow / per) : std::string();
     };
     html += fmt::format(
-        "<tr><td>{}</td><td>{:.2f}</td><td>{} / {}</td><td>{}</td><td>{}</td><td>{:.1f}</td>"
+        "<tr><td>{}{}</td><td>{:.2f}</td><td>{} / {}</td><td>{}</td><td>{}</td><td>{:.1f}</td>"
         "<td>{:.1f}</td><td>{:.1f}</td><td>{}</td><td>{:.2f}</td><td>{}</td><td>{}</td>"
         "<td>{:.2f}</td><td>{:.3f}</td></tr>\n",
-        escaped_markup(exit.exit_id), exit.width_m, exit.crossings.out, exit.crossings.in,
-        flow_cell(1), flow_cell(exit.width_m), exit.demand_s, exit.congested_s, exit.clogged_s,
-        exit.clogs.size(), exit.mean_clogging_index, exit.max_queue,
+        escaped_markup(exit.exit_id), closed_note(exit), exit.width_m, exit.crossings.out,
+        exit.crossings.in, flow_cell(1), flow_cell(exit.width_m), exit.demand_s, exit.congested_s,
+        exit.clogged_s, exit.clogs.size(), exit.mean_clogging_index, exit.max_queue,
         exit.gaps.max_duration_s ? fmt::format("{:.1f}", *exit.gaps.max_duration_s) : "",
         exit.max_voronoi_density_per_m2, exit.max_pressure_per_s2);
   }

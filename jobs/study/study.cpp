@@ -1,6 +1,7 @@
 #include "jobs/study/study.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -108,13 +109,14 @@ class StudyReader {
     std::set<std::string> ids;
     for (const JsonValue& item : root_["cases"].items(1)) {
       item.fields({"id", "scenario"},
-                  {"title", "crowd", "alarm_s", "duration_s", "reference", "bound"});
+                  {"title", "close", "crowd", "alarm_s", "duration_s", "reference", "bound"});
       Case one;
       one.id = item["id"].identifier();
       check_unique(item["id"], one.id, ids);
       one.title = item["title"].exists() ? item["title"].text() : one.id;
       if (item["duration_s"].exists()) one.duration_s = item["duration_s"].number(1, kMaxRunS);
       one.scenario = read_scenario(item["scenario"]);
+      close_exits(item["close"], one.scenario);
       one.alarm = world::find_alarm(one.scenario);
       if (item["alarm_s"].exists()) one.alarm.at_s = item["alarm_s"].number(0, one.duration_s);
       read_reference(item, one);
@@ -154,6 +156,28 @@ class StudyReader {
       value.reject(problem.found, problem.expected);
       return {};
     }
+  }
+
+  // Closes exits of a blueprint, whose people know of it; those of Menge's files would not.
+  void close_exits(const JsonValue& value, world::Scenario& scenario) {
+    std::vector<std::string> ids;
+    for (const world::Exit& exit : scenario.exits) ids.push_back(exit.id);
+    const std::size_t before = problems_.size();
+    std::vector<std::string> closed;
+    for (const JsonValue& item : value.items()) {
+      closed.push_back(item.text());
+      if (closed.back().empty() || ids.empty() ||
+          std::find(ids.begin(), ids.end(), closed.back()) != ids.end())
+        continue;
+      item.reject(fmt::format("the id of an exit: {}", fmt::join(ids, ", ")));
+    }
+    if (ids.empty() || closed.empty() || problems_.size() > before) return;
+    if (!scenario.built_crowd) {
+      value.reject(fmt::format("exits of \"{}\", which is no blueprint", scenario.id),
+                   "exits of a blueprint: only its people know what is closed");
+      return;
+    }
+    scenario = scenarios::find_scenario(scenarios_, scenario.id, closed);
   }
 
   // Those of the file must be watched for in every case. By default the longer one is as long as

@@ -33,10 +33,13 @@ std::string p_text(double p) { return std::isfinite(p) ? fmt::format("{:.2g}", p
 
 bool compares_policies(const Study& study) { return study.policies.size() > 1; }
 
-std::string exits_text(const SummaryRow& row) {
+std::string exits_text(const Case& one, const SummaryRow& row) {
   std::string text;
-  for (const double count : row.exit_use)
-    text += fmt::format("{}{:.0f}", text.empty() ? "" : "/", count);
+  for (std::size_t e = 0; e < row.exit_use.size(); ++e) {
+    const world::Exit& exit = one.scenario.exits[e];
+    text += fmt::format("{}{} ", text.empty() ? "" : ", ", exit.id);
+    text += exit.is_open(0) ? fmt::format("{:.0f}", row.exit_use[e]) : "closed";
+  }
   if (row.left_by_no_exit > 0) text += fmt::format(" and {:.1f} by none", row.left_by_no_exit);
   return text;
 }
@@ -82,9 +85,10 @@ std::vector<std::string> case_cells(const Study& study, const SummaryRow& row) {
     cells.push_back(fmt::format("{:.2g}", at.test.p_value));
     cells.push_back(fmt::format("{:.2g}", at.holm_p));
   }
-  cells.push_back(fmt::format("{:.2f}", row.t90_to_bound));
-  cells.push_back(fmt::format("{:.2f}", row.t90_to_reference));
-  cells.push_back(exits_text(row));
+  for (const double ratio : {row.t90_to_bound, row.t90_to_reference}) {
+    cells.push_back(std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : kDash);
+  }
+  cells.push_back(exits_text(study.cases[row.one_case], row));
   return cells;
 }
 

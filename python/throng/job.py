@@ -253,8 +253,9 @@ class Environment(Part):
 
     _: KW_ONLY
     time_of_day: str | Distribution | None = None
-    """Solar time at the run's start; sets the sun for the whole run. Street lamps and windows are lit while it is
-    below the horizon. Unit: HH:MM. Default: "15:30"."""
+    """Solar time at the run's start; sets the sun for the whole run: HH:MM, or midnight, dawn, sunrise, noon, sunset
+    or dusk, also as "sunset-20min" or "dusk+1h". Street lamps and windows are lit while it is below the horizon.
+    Unit: HH:MM. Default: "15:30"."""
     latitude_deg: float | Distribution | None = None
     """Latitude for the sun's position; north is positive. Unit: degrees. Default: 45."""
     day_of_year: int | Distribution | None = None
@@ -277,7 +278,7 @@ class Environment(Part):
 @dataclass
 class Capture(Part):
     """Times of the frames of every run and camera: from_s, then every 1 / rate_hz, up to to_s. The run lasts until
-    to_s."""
+    run_to_s."""
 
     _: KW_ONLY
     rate_hz: float | None = None
@@ -285,7 +286,10 @@ class Capture(Part):
     from_s: float | None = None
     """Time of the first frame, from the run's start. Unit: s. Default: 0."""
     to_s: float | None = None
-    """Maximum time of a frame; the run's duration. Unit: s. Default: 60."""
+    """Maximum time of a frame. Unit: s. Default: 60."""
+    run_to_s: float | None = None
+    """End of the run, if it goes on after the last frame, so that figures tell of an evacuation to its end; default:
+    to_s. Unit: s."""
 
 
 @dataclass
@@ -671,7 +675,7 @@ class Job(Part):
     without drones: figures without images."""
     capture: Capture | None = None
     """Times of the frames of every run and camera: from_s, then every 1 / rate_hz, up to to_s. The run lasts until
-    to_s."""
+    run_to_s."""
     quality: Literal["draft", "standard", "high"] | None = None
     """Image quality: draft (quick: flat colors, no shadows, coarse people), standard, high (soft shadows, finer
     people, four color samples per pixel). Default: "standard"."""

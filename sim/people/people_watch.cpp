@@ -108,16 +108,20 @@ std::vector<Problem> PeopleWatch::idleness() const {
     return {{"", kScenario,
              fmt::format("an alarm at {:.4g} s that {} noticed until {:.4g} s", *alarm_s_,
                          share_text(noticed_, started_), time_s_),
-             "a disaster within whose reach people are, a behavior in which they notice it, and "
-             "the \"crowd.compat\" that its files were made for"}};
+             scenario_.built_crowd
+                 ? "a disaster within whose \"noticed_m\" people are"
+                 : "a disaster within whose reach people are, a behavior in which they notice it, "
+                   "and the \"crowd.compat\" that its files were made for"}};
   }
   if (const std::size_t out = count(&Person::heads_out); alarm_s_ && is_hardly_any(out, started_)) {
     return {{"", kScenario,
              fmt::format("{} who head for an exit or follow a guide after the alarm at {:.4g} s, "
                          "until {:.4g} s",
                          share_text(out, started_), *alarm_s_, time_s_),
-             "a behavior in which people who know of the alarm choose a goal of an exit "
-             "(\"exits[].goals\" of the scenario)"}};
+             scenario_.built_crowd
+                 ? "an open exit that people can reach"
+                 : "a behavior in which people who know of the alarm choose a goal of an exit "
+                   "(\"exits[].goals\" of the scenario)"}};
   }
   const std::size_t moving = count(&Person::moved);
   if (moving == 0 || (alarm_s_ && is_hardly_any(moving, started_))) {

@@ -59,14 +59,17 @@ void PropWatch::record(std::size_t number, std::size_t agent, const Eigen::Vecto
   noted_.insert(number);
   const world::Prop& prop = scenario_->props[number];
   const bool placed = number < scenario_->placed_props;
+  // People of a blueprint have no numbers, and its props are obstacles.
+  const bool is_built = scenario_->built_crowd != nullptr;
   problems_.push_back(
       {scenario_->id, placed ? fmt::format("/props/{}/position", number) : std::string("/scatter"),
-       fmt::format(
-           "a {} at ({:.2f}, {:.2f}), in which agent {} is at ({:.2f}, {:.2f}) after {:.1f} s",
-           world::prop_types().at(static_cast<std::size_t>(prop.kind)).name, prop.position.x(),
-           prop.position.y(), agent, at.x(), at.y(), time_s),
-       placed ? "a place where nobody walks, or where the crowd's scene has an obstacle"
-              : "areas in which nobody walks"});
+       fmt::format("a {} at ({:.2f}, {:.2f}), in which {} is at ({:.2f}, {:.2f}) after {:.1f} s",
+                   world::prop_types().at(static_cast<std::size_t>(prop.kind)).name,
+                   prop.position.x(), prop.position.y(),
+                   is_built ? "a person" : fmt::format("agent {}", agent), at.x(), at.y(), time_s),
+       !placed    ? "areas in which nobody walks"
+       : is_built ? "a place where nobody walks"
+                  : "a place where nobody walks, or where the crowd's scene has an obstacle"});
 }
 
 }  // namespace throng::sim

@@ -14,21 +14,23 @@ bool has_own_goal(const DroneMission& mission, const world::Scenario& scenario) 
                                             });
 }
 
-Problem unknown_goal(std::size_t drone, const world::GoalRef& goal) {
+Problem unknown_goal(std::size_t drone, const world::GoalRef& goal,
+                     const world::Scenario& scenario) {
   return {"", fmt::format("/drones/{}/moves_goal", drone),
           fmt::format("[{}, {}]", goal.set, goal.goal),
-          "a goal set and goal of the scenario's behavior file"};
+          scenario.built_crowd ? "none: people of a blueprint follow the drones that it names"
+                               : "a goal set and goal of the scenario's behavior file"};
 }
 
-void check_moved_goals(const std::vector<DroneMission>& missions, crowd::Simulation& crowd,
-                       std::vector<Problem>& problems) {
+void check_moved_goals(const std::vector<DroneMission>& missions, const world::Scenario& scenario,
+                       crowd::Simulation& crowd, std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < missions.size(); ++i) {
     const auto& goal = missions[i].moves_goal;
     if (!goal) continue;
     try {
       crowd.move_goal(goal->set, goal->goal, Eigen::Vector2f::Zero());
     } catch (const InputError&) {
-      problems.push_back(unknown_goal(i, *goal));
+      problems.push_back(unknown_goal(i, *goal, scenario));
     }
   }
 }

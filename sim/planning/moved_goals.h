@@ -14,11 +14,12 @@ namespace throng::sim {
 bool has_own_goal(const DroneMission& mission, const world::Scenario& scenario);
 
 /// The problem that the behavior file does not contain the goal of a drone (index in the job).
-Problem unknown_goal(std::size_t drone, const world::GoalRef& goal);
+Problem unknown_goal(std::size_t drone, const world::GoalRef& goal,
+                     const world::Scenario& scenario);
 
 /// Adds a problem for each mission whose goal the behavior file does not contain. As a side effect,
 /// moves the existing goals to the origin.
-void check_moved_goals(const std::vector<DroneMission>& missions, crowd::Simulation& crowd,
-                       std::vector<Problem>& problems);
+void check_moved_goals(const std::vector<DroneMission>& missions, const world::Scenario& scenario,
+                       crowd::Simulation& crowd, std::vector<Problem>& problems);
 
 }  // namespace throng::sim

@@ -113,7 +113,7 @@ void add_camera(const JobSpec& job, const camera::CameraSpec& camera, bool is_mo
 }
 
 void add_run(const JobSpec& job, const RunPlan& run, const ExpectedRun& expected, JobCost& cost) {
-  const double duration_s = job.capture.to_s;
+  const double duration_s = job.capture.end_s();
   const auto shards = static_cast<double>(plan_shards(job, run.index).size());
   const auto drones = static_cast<double>(job.drones.size());
   const double step_bytes = expected.is_fled ? kFleeingPersonStepBytes : kTracePersonStepBytes;

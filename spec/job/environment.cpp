@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/geometry/angle.h"
+#include "spec/sun/sun_times.h"
 
 namespace throng::jobs {
 
@@ -38,7 +39,7 @@ std::string time_text(double hours) {
 }
 
 Quantity time_quantity() {
-  return {"a time HH:MM, for example \"15:30\"",
+  return {"a time HH:MM, for example \"15:30\", or a word such as \"dusk\"",
           parse_hours,
           [](double hours) { return json(time_text(hours)); },
           0,
@@ -47,8 +48,10 @@ Quantity time_quantity() {
 }
 
 Values times() {
-  return {
-      {{"type", "string"}, {"pattern", "^([01][0-9]|2[0-3]):[0-5][0-9]$"}}, "", time_quantity()};
+  return {{{"type", "string"},
+           {"pattern", fmt::format("^(([01][0-9]|2[0-3]):[0-5][0-9]|{})$", kSunWordsPattern)}},
+          "",
+          time_quantity()};
 }
 
 std::string environment_pointer(const char* name) { return fmt::format("/environment/{}", name); }
@@ -72,10 +75,11 @@ double usual_visibility_m(render::Weather weather) {
 const FieldTable<EnvironmentSpec>& environment_fields() {
   static const FieldTable<EnvironmentSpec> fields = [] {
     FieldTable<EnvironmentSpec> table;
-    add_sampled(table, "time_of_day", "Time of day", "HH:MM", times(),
-                at(&EnvironmentSpec::time_of_day_h),
-                "Solar time at the run's start; sets the sun for the whole run. Street "
-                "lamps and windows are lit while it is below the horizon.");
+    add_sampled(
+        table, "time_of_day", "Time of day", "HH:MM", times(), at(&EnvironmentSpec::time_of_day_h),
+        "Solar time at the run's start; sets the sun for the whole run: HH:MM, or midnight, "
+        "dawn, sunrise, noon, sunset or dusk, also as \"sunset-20min\" or \"dusk+1h\". "
+        "Street lamps and windows are lit while it is below the horizon.");
     add_sampled(table, "latitude_deg", "Latitude", "degrees", numbers(-90, 90),
                 at(&EnvironmentSpec::latitude_deg),
                 "Latitude for the sun's position; north is positive.");
@@ -152,23 +156,6 @@ json to_json(const RunEnvironment& environment) {
           {"rain_mm_per_h", light.rain_mm_per_h},
           {"smoke", light.smoke},
           {"wind", to_json(environment.wind)}};
-}
-
-Sun sun_at(double time_of_day_h, double latitude_deg, int day_of_year) {
-  constexpr double kNoonH = 12;
-  constexpr double kTurnPerHour = 15 * kDegree;
-  const double day = 360 * kDegree * (day_of_year - 1) / kDaysPerYear;
-  const double declination = 0.006918 - 0.399912 * std::cos(day) + 0.070257 * std::sin(day) -
-                             0.006758 * std::cos(2 * day) + 0.000907 * std::sin(2 * day) -
-                             0.002697 * std::cos(3 * day) + 0.00148 * std::sin(3 * day);
-  const double latitude = latitude_deg * kDegree;
-  const double hour_angle = (time_of_day_h - kNoonH) * kTurnPerHour;
-  const double east = -std::cos(declination) * std::sin(hour_angle);
-  const double north = std::cos(latitude) * std::sin(declination) -
-                       std::sin(latitude) * std::cos(declination) * std::cos(hour_angle);
-  const double up = std::sin(latitude) * std::sin(declination) +
-                    std::cos(latitude) * std::cos(declination) * std::cos(hour_angle);
-  return {std::atan2(north, east), std::asin(std::clamp(up, -1.0, 1.0))};
 }
 
 }  // namespace throng::jobs

@@ -10,6 +10,7 @@
 #include "spec/job/field_table.h"
 #include "spec/job/wind_spec.h"
 #include "spec/render/environment.h"
+#include "spec/sun/sun.h"
 
 namespace throng::jobs {
 
@@ -47,16 +48,5 @@ RunEnvironment environment_of_run(const EnvironmentSpec& spec, std::uint64_t run
 
 /// A run's environment as recorded in the manifest and with every image.
 nlohmann::json to_json(const RunEnvironment& environment);
-
-/// The sun's direction.
-struct Sun {
-  double azimuth_rad = 0;    ///< counter-clockwise from +x (east); +y is north
-  double elevation_rad = 0;  ///< negative below the horizon
-};
-
-/// Position of the sun at a solar time (hours from midnight): sin(elevation) = sin(lat) sin(dec) +
-/// cos(lat) cos(dec) cos(hour angle). The declination is Spencer's Fourier series of the day of the
-/// year (Spencer 1971, Search 2(5), p. 172; within 0.05 degrees).
-Sun sun_at(double time_of_day_h, double latitude_deg, int day_of_year);
 
 }  // namespace throng::jobs

@@ -189,15 +189,18 @@ FieldTable<JobSpec> make_job_fields() {
             "at their starts. [] or a scenario without drones: figures without images.");
   table.group("capture", "Capture",
               "Times of the frames of every run and camera: from_s, then every 1 / "
-              "rate_hz, up to to_s. The run lasts until to_s.");
+              "rate_hz, up to to_s. The run lasts until run_to_s.");
   table.add("capture/rate_hz", "Rate", "Hz", numbers(0.01, 60),
             at(&JobSpec::capture, &CaptureSpec::rate_hz), "Frames per simulated second.");
   table.add("capture/from_s", "From", "s", numbers(0, 7200),
             at(&JobSpec::capture, &CaptureSpec::from_s),
             "Time of the first frame, from the run's start.");
   table.add("capture/to_s", "To", "s", numbers_above(0, 7200),
-            at(&JobSpec::capture, &CaptureSpec::to_s),
-            "Maximum time of a frame; the run's duration.");
+            at(&JobSpec::capture, &CaptureSpec::to_s), "Maximum time of a frame.");
+  table.add("capture/run_to_s", "Run to", "s", numbers_above(0, 7200),
+            at(&JobSpec::capture, &CaptureSpec::run_to_s),
+            "End of the run, if it goes on after the last frame, so that figures tell of an "
+            "evacuation to its end; default: to_s.");
   table
       .add_word("quality", "Quality", quality_words(), at(&JobSpec::quality),
                 "Image quality: draft (quick: flat colors, no shadows, coarse people), "

@@ -1,6 +1,7 @@
 // A job as a value. spec/job/spec.h reads and prints it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -34,6 +35,10 @@ struct CaptureSpec {
   double rate_hz = 1;
   double from_s = 0;
   double to_s = 60;
+  std::optional<double> run_to_s;  ///< where the run goes on after the last frame
+
+  /// When the run ends.
+  double end_s() const { return std::max(to_s, run_to_s.value_or(to_s)); }
 };
 
 /// Images, ground truth and exports that a job writes.

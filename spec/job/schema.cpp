@@ -5,6 +5,7 @@
 #include "base/json/field_table.h"
 #include "base/schemas/json_schema.h"
 #include "spec/job/job_fields.h"
+#include "spec/sun/sun_times.h"
 
 namespace throng::jobs {
 
@@ -29,10 +30,18 @@ std::string_view job_schema_text() {
 
 std::vector<Problem> schema_problems(const json& job, const std::string& source) {
   static const schemas::JsonSchema schema(job_schema());
-  if (!job.is_object() || !job.contains(kSchemaField)) return schema.problems(job, source);
-  json without = job;
-  without.erase(kSchemaField);
-  return schema.problems(without, source);
+  if (!job.is_object()) return schema.problems(job, source);
+  json resolved = job;
+  resolved.erase(kSchemaField);
+  std::vector<Problem> of_times;  // which say more than the schema's pattern
+  resolve_sun_times(resolved, of_times);
+  std::vector<Problem> problems = schema.problems(resolved, source);
+  for (Problem& problem : of_times) {
+    std::erase_if(problems, [&](const Problem& other) { return other.where == problem.where; });
+    problem.source = source;
+    problems.push_back(std::move(problem));
+  }
+  return problems;
 }
 
 }  // namespace throng::jobs

@@ -13,6 +13,7 @@
 #include "spec/job/resolved_job.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/job/schema.h"
+#include "spec/sun/sun_times.h"
 
 namespace throng::jobs {
 
@@ -33,9 +34,14 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
 }
 
 void check_times(const CaptureSpec& capture, std::vector<Problem>& problems) {
-  if (capture.to_s >= capture.from_s) return;
-  problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
-                      fmt::format("at least from_s, which is {}", capture.from_s)});
+  if (capture.to_s < capture.from_s) {
+    problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
+                        fmt::format("at least from_s, which is {}", capture.from_s)});
+  }
+  if (capture.run_to_s && *capture.run_to_s < capture.to_s) {
+    problems.push_back({"", "/capture/run_to_s", fmt::format("{}", *capture.run_to_s),
+                        fmt::format("at least to_s, which is {}", capture.to_s)});
+  }
 }
 
 // A drone begins at its start or where it aims at somebody.
@@ -57,6 +63,7 @@ json parse_with_schema(std::string_view text, const std::string& source) {
   json value = parse_json(text, source, kJobJsonLimits);
   std::vector<Problem> problems = schema_problems(value, source);
   if (!problems.empty()) throw InputError(std::move(problems));
+  resolve_sun_times(value, problems);
   return value;
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/files/hash.h"
+#include "tests/world/scenarios/square.h"
 #include "tests/world/temporary_folder.h"
 #include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace.h"
@@ -48,6 +49,29 @@ world::Trace simulate_trace(const RunSpec& spec) {
   const TemporaryFolder folder;
   simulate(city_square(), spec, folder.path() / "run.h5");
   return world::read_trace(folder.path() / "run.h5");
+}
+
+TEST(Run, SpeaksOfABlueprintNotOfItsCrowd) {
+  nlohmann::json square = throng::testing::square();
+  square["people"] = {{"lines", {{{"from", {10, 22}}, {"to", {12, 22}}, {"count", 3}}}}};
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("square.blueprint.json", square.dump());
+  const world::Scenario scenario = scenarios::load_scenario(file, "square");
+  RunSpec spec;
+  spec.duration_s = 0.5;
+  for (const Problem& warning : simulate(scenario, spec, folder.path() / "run.h5")) {
+    EXPECT_EQ(warning.text().find("built in code"), std::string::npos) << warning.text();
+  }
+  spec.drones = {short_run().drones[0]};
+  spec.drones[0].moves_goal = world::GoalRef{7, 7};
+  try {
+    simulate(scenario, spec, folder.path() / "run.h5");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    const Problem& problem = error.problems().front();
+    EXPECT_EQ(problem.where, "/drones/0/moves_goal");
+    EXPECT_EQ(problem.expected.find("behavior file"), std::string::npos) << problem.expected;
+  }
 }
 
 TEST(Run, SaysWhichModelMovedThePeople) {

@@ -1,4 +1,5 @@
 #include "world/scenario.h"
+#include "world/scenario_id.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -368,6 +369,30 @@ TEST_F(ScenarioFile, BlueprintsWithTheFormerEndingAreFound) {
   EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("town/hall"));
   EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.place.json");
   EXPECT_EQ(suggested(folder.path(), "hall.place.json"), "\"town/hall\"");
+}
+
+TEST_F(ScenarioFile, NamesThatAreNoIdsAreNamed) {
+  const std::string text = R"({"ground": {}, "people": {}})";
+  EXPECT_THAT(suggested(folder.path(), "hall"), HasSubstr("a folder with files of scenarios"));
+  folder.write("noA.blueprint.json", text);
+  EXPECT_THAT(suggested(folder.path(), "hall"), HasSubstr("noA.blueprint.json is left out"));
+  EXPECT_THAT(suggested(folder.path(), "noA"), HasSubstr("such as \"noa\""));
+  EXPECT_THAT(suggested(folder.path(), "noA.blueprint.json"), HasSubstr("such as \"noa\""));
+  folder.write("My Floor/Büro-2.json", text);
+  folder.write("v1.2.blueprint.json", text);
+  folder.write("bad\xff\n.json", text);
+  folder.write("sound.json", text);
+  folder.write("Day.job.json", R"({"scenario": "sound", "crowd": {"agents": 3}})");
+  folder.write("day.json", R"({"scenario": "sound", "crowd": {"agents": 3}})");
+  std::vector<std::string> found;
+  for (const Problem& problem : list_unnamed_scenarios(folder.path())) {
+    found.push_back(problem.text());
+  }
+  EXPECT_THAT(found, ElementsAre(HasSubstr("My Floor/Büro-2.json: found the name \"My Floor/B"),
+                                 HasSubstr("\\n\""), HasSubstr("noA.blueprint.json"),
+                                 HasSubstr("such as \"v1_2\"")));
+  EXPECT_THAT(found[0], HasSubstr("such as \"my_floor/b_ro_2\""));
+  EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("sound")) << "nor jobs with a crowd";
 }
 
 TEST_F(ScenarioFile, OtherFilesInTheFolderAreNoScenarios) {

@@ -98,7 +98,7 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
   if (job.recorded) {
     std::vector<Problem> notes;
     const world::Trace recording = read_recording(*job.recorded, &notes);
-    const std::size_t steps = shown_steps(recording, job.capture.to_s);
+    const std::size_t steps = shown_steps(recording, job.capture.end_s());
     checked.expected.people = static_cast<std::int64_t>(recording.agents());
     shown_people = count_shown_people(recording, steps);
     crowd = recorded_crowd(recording, steps);
@@ -123,7 +123,7 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
   const auto everybody = static_cast<double>(checked.expected.people);
   // At one time there are as many recorded people as at another; the others come and leave.
   const double arrivals =
-      job.recorded ? 0 : expected_arrivals(everybody, at_start, job.capture.to_s);
+      job.recorded ? 0 : expected_arrivals(everybody, at_start, job.capture.end_s());
   checked.taking_part = job.recorded ? taking_part * shown_people : at_start + arrivals;
   // Others leave meanwhile.
   constexpr double kShareThere = 0.45;

@@ -119,9 +119,10 @@ void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
   if (job.recorded->sha256.empty()) return;  // there is no such file: reported by read_files()
   try {
     const world::Trace recording = read_recording(*job.recorded);
-    if (job.capture.to_s > recording.duration_s() + world::kTimeSlackS) {
+    if (job.capture.end_s() > recording.duration_s() + world::kTimeSlackS) {
       problems.push_back(
-          {"", "/capture/to_s", fmt::format("{}", job.capture.to_s),
+          {"", job.capture.run_to_s ? "/capture/run_to_s" : "/capture/to_s",
+           fmt::format("{}", job.capture.end_s()),
            fmt::format("at most {:.6g}, the recording's length", recording.duration_s())});
     }
     sim::choose_roles("", {}, recording.agents(), job.agents, job.seed, problems);
@@ -209,7 +210,7 @@ void check_flight(const ScenarioRuns& place, const JobSpec& run_job, int run,
   const std::uint64_t seed = plan_runs(run_job).at(static_cast<std::size_t>(run)).seed;
   std::vector<sim::DroneMission> missions = make_missions(run_job, seed);
   sim::aim_drones(place.scenario, place.people, seed, missions, problems);
-  sim::plan_drones(place.scenario, missions, run_job.capture.to_s, problems);
+  sim::plan_drones(place.scenario, missions, run_job.capture.end_s(), problems);
 }
 
 // Checks that need the simulation: whether the drones can fly and whether there are people enough.
@@ -235,7 +236,7 @@ void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
       [&](const sim::DroneMission& mission) { return sim::has_own_goal(mission, scenario); });
   if (!job.agents && !moves_goals) return;
   crowd::Simulation crowd = sim::load_people(scenario, job.seed, job.crowd);
-  if (moves_goals) sim::check_moved_goals(missions, crowd, problems);
+  if (moves_goals) sim::check_moved_goals(missions, scenario, crowd, problems);
   if (!job.agents) return;
   sim::choose_roles(scenario.id, scenario.disaster_agents, crowd.agent_count(), job.agents,
                     job.seed, problems);

@@ -9,6 +9,7 @@
 #include "sim/run.h"
 #include "spec/scenarios/scenario_summary.h"
 #include "world/scenario.h"
+#include "world/scenario_id.h"
 #include "world/scenarios/blueprint/load_scenario.h"
 #include "world/scenarios/check/check.h"
 
@@ -65,6 +66,11 @@ class Findings {
 
 CheckedScenarios check_scenarios(const fs::path& folder) {
   CheckedScenarios checked{world::list_scenarios(folder)};
+  std::vector<Problem> unnamed = world::list_unnamed_scenarios(folder);
+  if (checked.ids.empty() && !unnamed.empty()) throw InputError(std::move(unnamed));
+  for (Problem& problem : unnamed) {
+    checked.findings.push_back({false, std::move(problem), "rename the file or the folder"});
+  }
   if (checked.ids.empty()) {
     throw InputError(Problem{"", "", "no scenario",
                              "at least one file NAME.json, its name of small letters, digits and _ "

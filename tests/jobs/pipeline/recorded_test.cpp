@@ -201,6 +201,7 @@ TEST_F(RecordedJob, ReportsMistakes) {
   EXPECT_EQ(problem_pointer(with("/crowd/agents", 13)), "/crowd/agents");
   EXPECT_EQ(problem_pointer(with("/crowd/physical", true)), "/crowd/physical");
   EXPECT_EQ(problem_pointer(with("/capture/to_s", 60)), "/capture/to_s");
+  EXPECT_EQ(problem_pointer(with("/capture/run_to_s", 60)), "/capture/run_to_s");
   EXPECT_THROW(resolve_job(job().dump(), "", folder.path()), InputError);  // a request
 }
 

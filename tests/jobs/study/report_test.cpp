@@ -159,6 +159,30 @@ TEST(Report, WritesDesignsAndTheirDifferences) {
   EXPECT_THAT(page, HasSubstr("\"mean_s\":[40.5,41.0,"));
 }
 
+TEST(Report, DrawsAllDesignsInOneChart) {
+  const Example example = designs();
+  const throng::testing::TemporaryFolder folder;
+  write_report(example.study, example.outcomes, folder.path());
+  const std::string page = read_file(folder.path() / "report.html");
+  EXPECT_THAT(page, HasSubstr("data-chart=\"policies\" data-case=\"2\""));
+  EXPECT_THAT(page, HasSubstr("{\"name\":\"wide\",\"share\":[0.0,"));
+}
+
+TEST(Report, SaysWhichExitsAreClosed) {
+  Example example = designs();
+  example.study.cases[1].scenario.exits[0].open = false;
+  for (Outcome& outcome : example.outcomes[1][0]) {
+    outcome = run_with({});
+    outcome.counts.left_by[0].people = 0;
+    outcome.bound = outcome.reference = {};
+  }
+  const throng::testing::TemporaryFolder folder;
+  write_report(example.study, example.outcomes, folder.path());
+  const std::string table = read_file(folder.path() / "summary.md");
+  EXPECT_THAT(table, HasSubstr("| door 2 |"));
+  EXPECT_THAT(table, HasSubstr("| – | – | door closed |"));
+}
+
 TEST(Report, SaysTheWarningsOfScenariosAndRunsEverywhere) {
   Example example;
   example.study.cases[0].findings = {"error: a \"court\""};

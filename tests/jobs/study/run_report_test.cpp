@@ -127,6 +127,22 @@ TEST(RunReport, SaysThatPeopleLeftByNoExit) {
   EXPECT_NE(html.find("1 of 2 people left the place where there is no exit"), std::string::npos);
 }
 
+TEST(RunReport, SaysWhichExitsAreClosed) {
+  world::Scenario scenario = metrics::place_with_door(2);
+  scenario.exits[0].closes_at_s = 1;
+  std::vector<MeasuredRun> runs;
+  runs.push_back(
+      measured("late", metrics::make_trace({metrics::walking({-5, 3}, {0.1, 0})}), scenario));
+  std::string html = html_report(scenario, runs);
+  EXPECT_NE(html.find(scenario.exits[0].id + " (closed for "), std::string::npos);
+  EXPECT_EQ(count(html, "<td>closed</td>"), 0U);
+  scenario.exits[0].open = false;
+  runs[0] = measured("never", metrics::make_trace({metrics::walking({-5, 3}, {0.1, 0})}), scenario);
+  html = html_report(scenario, runs);
+  EXPECT_NE(html.find(scenario.exits[0].id + " (closed)"), std::string::npos);
+  EXPECT_EQ(count(html, "<td>closed</td>"), 1U) << "not: left by 0";
+}
+
 TEST(RunReport, NobodyIsNoError) {
   const world::Scenario scenario = metrics::place_with_door(2);
   std::vector<MeasuredRun> runs;

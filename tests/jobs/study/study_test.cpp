@@ -100,6 +100,33 @@ TEST_F(StudyFile, OneDesignNeedsNoPolicy) {
   EXPECT_EQ(list_problems(document).at(0).where, "/baseline_case");
 }
 
+TEST_F(StudyFile, ACaseClosesExitsOfABlueprint) {
+  json document = small_study();
+  document.erase("policies");
+  document.erase("baseline");
+  json& one = document["cases"][0];
+  one["scenario"] = "city_square/emergency";
+  one.erase("crowd");
+  const Study open = load(document);
+  const std::string first = open.cases[0].scenario.exits[0].id;
+  one["close"] = {first};
+  const Study closed = load(document);
+  EXPECT_FALSE(closed.cases[0].scenario.exits[0].open);
+  EXPECT_TRUE(closed.cases[0].scenario.exits[1].open);
+  EXPECT_NE(closed.fingerprints[0][0], open.fingerprints[0][0]);
+  one["close"] = json::array();
+  EXPECT_EQ(load(document).fingerprints[0][0], open.fingerprints[0][0]);
+  one["close"] = {first, "Exit"};
+  Problem problem = list_problems(document).at(0);
+  EXPECT_EQ(problem.where, "/cases/0/close/1");
+  EXPECT_THAT(problem.expected, HasSubstr("the id of an exit: " + first));
+  one["scenario"] = "city_square/nearest_exit";  // with Menge's files
+  one["close"] = {"exit1"};
+  problem = list_problems(document).at(0);
+  EXPECT_EQ(problem.where, "/cases/0/close");
+  EXPECT_THAT(problem.found, HasSubstr("no blueprint"));
+}
+
 TEST_F(StudyFile, TheShippedOneIsFine) {
   const Study study = load_study(kScenarios / "city_square" / "study.json", kScenarios);
   EXPECT_EQ(study.runs, 24);

@@ -11,7 +11,7 @@ namespace {
 
 JobSpec job_with(double to_s, double rate_hz, int cameras, int runs) {
   JobSpec job;
-  job.capture = {rate_hz, 0, to_s};
+  job.capture = {rate_hz, 0, to_s, {}};
   job.drones.resize(static_cast<std::size_t>(cameras));
   job.runs = runs;
   return job;
@@ -91,7 +91,7 @@ TEST(Plan, AsManyPreviewsAsAskedForOrAsThereAreFrames) {
   for (const int wanted : {0, 1, 3, 4, 100}) {
     for (int frames = 1; frames < 40; ++frames) {
       JobSpec job = job_with(frames - 1, 1, 1, 1);
-      if (frames == 1) job.capture = {1, 0, 0.5};
+      if (frames == 1) job.capture = {1, 0, 0.5, {}};
       job.outputs.previews = wanted;
       int previews = 0;
       for (std::int64_t frame = 0; frame < frames; ++frame) previews += has_preview(job, frame);

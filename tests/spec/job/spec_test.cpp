@@ -227,6 +227,7 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
        "/drones/0/camera/width"},
       {R"({"scenario": "yard", "capture": {"rate_hz": 0}})", "/capture/rate_hz"},
       {R"({"scenario": "yard", "capture": {"from_s": 10, "to_s": 5}})", "/capture/to_s"},
+      {R"({"scenario": "yard", "capture": {"to_s": 9, "run_to_s": 8}})", "/capture/run_to_s"},
       {R"({"scenario": "yard", "environment": {"time_of_day": "25:00"}})",
        "/environment/time_of_day"},
       {R"({"scenario": "yard", "environment": {"weather": "snow"}})", "/environment/weather"},

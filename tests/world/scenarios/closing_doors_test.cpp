@@ -148,6 +148,28 @@ TEST(ClosedDoors, ArePassedByNobodyFromTheStart) {
   }
 }
 
+TEST(ClosedDoors, AreNobodysDestination) {
+  json blueprint = crowded_square("wait", 1);
+  json& exits = blueprint["exits"];
+  exits[0]["open"] = false;
+  blueprint["people"]["sources"] = json::array({{{"doing", "cross"},
+                                                 {"from", {-10, -10}},
+                                                 {"to", {-10, 10}},
+                                                 {"towards", "east"},
+                                                 {"table", {{1, 20}}}}});
+  CountedRun run(blueprint);
+  run.until(20);
+  EXPECT_EQ(run.in_state("To_east"), 0);
+  run.until(90);
+  EXPECT_EQ(run.east, 0);
+  EXPECT_EQ(run.west, 20);
+  exits[1]["open"] = false;
+  CountedRun none(blueprint);
+  none.until(30);
+  EXPECT_EQ(none.east + none.west, 0);
+  EXPECT_EQ(none.in_state("To_east"), 20) << "wait before one of those that are closed";
+}
+
 TEST(ClosingDoors, ChangeNothingBefore) {
   json blueprint = crowded_square("leave");
   CountedRun without(blueprint);

@@ -22,7 +22,7 @@ const kGroups: { title: string; fields: Path[] }[] = [
       ["environment", "weather"],
     ],
   },
-  { title: "Capture", fields: [["capture", "from_s"], ["capture", "to_s"], ["capture", "rate_hz"], ["quality"]] },
+  { title: "Capture", fields: [["capture", "from_s"], ["capture", "to_s"], ["capture", "rate_hz"], ["capture", "run_to_s"], ["quality"]] },
 ];
 
 // The rest is for training.

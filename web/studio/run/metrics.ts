@@ -28,7 +28,7 @@ export interface Metrics {
     battery_flat_s: number | null;
     collisions: Record<string, number>;
   }[];
-  exits?: { id: string; clogs?: { from_s: number; until_s: number; ended: boolean }[] }[];
+  exits?: { id: string; time_in_state?: Record<string, number>; clogs?: { from_s: number; until_s: number; ended: boolean }[] }[];
   exposure: { max_density_2m2_per_m2: number | null } | null;
   exit_balance: { jain: number | null } | null; ///< null: nobody left
 }

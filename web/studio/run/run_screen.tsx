@@ -68,7 +68,7 @@ type Figure = [preact.JSX.Element, string];
 const defined = (anchor: string, name: string) => <Defined anchor={anchor}>{name}</Defined>;
 
 /** Everybody once: the numbers add up to the people. Older files have two numbers only. */
-function countsOf({ people, not_escaped, people_counts: counts }: Metrics): Figure[] {
+function countsOf({ people, not_escaped, people_counts: counts, exits }: Metrics): Figure[] {
   const count = (name: string, value: number): Figure => [defined("people_counts", name), String(value)];
   if (!counts) return [count("people", people), count("not escaped", not_escaped)];
   const others: Figure[] = [
@@ -80,7 +80,11 @@ function countsOf({ people, not_escaped, people_counts: counts }: Metrics): Figu
   ];
   return [
     count("people", people),
-    ...counts.left_by_exit.map((exit) => count(`left by ${exit.id}`, exit.people)),
+    ...counts.left_by_exit.map(({ id, people: out }): Figure => {
+      const states = exits?.find((exit) => exit.id === id)?.time_in_state;
+      const isClosed = out === 0 && states && Object.entries(states).every(([state, time_s]) => state === "closed_s" || time_s === 0);
+      return [defined("people_counts", `left by ${id}`), isClosed ? "closed" : String(out)];
+    }),
     count("inside at the end", counts.inside),
     ...others.filter(([, value]) => value !== "0"),
   ];

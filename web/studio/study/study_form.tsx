@@ -15,6 +15,7 @@ const kCaseFields: Path[] = [
   ["id"],
   ["title"],
   ["scenario"],
+  ["close"],
   ["crowd", "agents"],
   ["crowd", "model"],
   ["crowd", "compat"],

@@ -95,8 +95,10 @@ json load_blueprint(const fs::path& file) {
 }
 
 bool is_blueprint(const json& document, const fs::path& file) {
-  return document.is_object() && !document.contains("crowd") &&
-         (document.contains("people") || world::is_blueprint_name(file.string()));
+  if (!document.is_object()) return false;
+  const bool has_people = document.contains("people");
+  const bool has_name = world::is_blueprint_name(file.string());
+  return document.contains("crowd") ? has_people && has_name : has_people || has_name;
 }
 
 namespace {

@@ -23,6 +23,11 @@ std::uint32_t free_class(std::uint32_t taken) {
 
 }  // namespace
 
+bool is_destination(const Exit& exit, const std::vector<Exit>& exits) {
+  const auto is_open = [](const Exit& one) { return one.is_open(0); };
+  return is_open(exit) || std::none_of(exits.begin(), exits.end(), is_open);
+}
+
 double closing_time_s(const Exit& exit, const std::vector<BlockedDisc>& discs) {
   if (!exit.open) return 0;
   const BlockedDisc* const disc = first_to_reach(exit, discs);

@@ -19,6 +19,10 @@ struct ClosingDoor {
   std::uint32_t obstacle_class = 1;
 };
 
+/// Whether people who know the exits may choose this one: it is not closed from the start, or all
+/// are.
+bool is_destination(const world::Exit& exit, const std::vector<world::Exit>& exits);
+
 /// When an exit closes, by itself or by the first disc that reaches it (s); infinite: never.
 double closing_time_s(const world::Exit& exit, const std::vector<BlockedDisc>& discs);
 

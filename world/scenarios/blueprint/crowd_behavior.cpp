@@ -78,8 +78,8 @@ void add_goals(const Scenario& scenario, const People& people, BehaviorBuilder& 
   for (std::size_t i = 0; i < scenario.exits.size(); ++i) {
     const Exit& exit = scenario.exits[i];
     away.push_back(describe::circle_goal(static_cast<int>(i), beyond(exit, scenario.inside), 2, 2));
-    leaving.push_back(door_goal(exit, i));
-    if (can_flee_by(first_to_reach(exit, discs))) fleeing.push_back(leaving.back());
+    if (is_destination(exit, scenario.exits)) leaving.push_back(door_goal(exit, i));
+    if (can_flee_by(first_to_reach(exit, discs))) fleeing.push_back(door_goal(exit, i));
   }
   behavior.comment("Destinations outside of the scenario.").add_goal_set(kAwaySet, std::move(away));
   // If people only flee, their own goal set is enough.

@@ -79,6 +79,7 @@ void add_lines(const People& people, std::vector<Vector2d>& taken, SceneBuilder&
       const double share = line.count > 1 ? static_cast<double>(rank) / (line.count - 1) : 0;
       points.push_back(line.from + share * (line.to - line.from));
     }
+    scene.comment(fmt::format("/people/lines/{}", i));
     scene.add_group({profile_name(line.speed_mps, "line", i),
                      state_name(Doing::wait),
                      agents_at(points),
@@ -100,6 +101,7 @@ void add_groups(const People& people, const Solids& solids, std::vector<Vector2d
     if (standing.count == 0) continue;
     std::vector<Node> more;
     if (group.doing == Doing::wait) more.push_back(facing_element(group.facing));
+    scene.comment(fmt::format("/people/groups/{}", i));
     scene.add_group({profile_name(group.speed_mps, "group", i), state_name(group.doing),
                      describe::typed("Generator", "scatter",
                                      {{"count", standing.count},
@@ -177,6 +179,7 @@ void add_sources(const Scenario& scenario, const People& people, const Solids& s
     closed_s = std::min(closed_s, reached_s(from, to, discs));
     const std::string state =
         source.towards ? state_towards(scenario.exits[*source.towards]) : state_name(source.doing);
+    scene.comment(fmt::format("/people/sources/{}", i));
     scene.add_group({profile_name(source.speed_mps, "source", i),
                      state,
                      agents_at(points),
@@ -267,7 +270,9 @@ void add_profiles(const People& people, SceneBuilder& scene) {
 
 /// One group each, before all others: their numbers are those of the blueprint's list.
 void add_dangers(const People& people, SceneBuilder& scene) {
-  for (const Danger& danger : people.dangers) {
+  for (std::size_t i = 0; i < people.dangers.size(); ++i) {
+    const Danger& danger = people.dangers[i];
+    scene.comment(fmt::format("/disasters/{}", i));
     const bool moves = danger.seen.kind == world::DisasterKind::attacker;
     scene.add_group({moves ? "attacker" : "danger", moves ? "Attack" : "Danger",
                      agents_at({danger.seen.position})});

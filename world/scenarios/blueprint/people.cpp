@@ -9,6 +9,7 @@
 
 #include "base/geometry/polygon.h"
 #include "world/json_reader.h"
+#include "world/scenarios/blueprint/closing_doors.h"
 
 namespace throng::scenarios {
 
@@ -114,6 +115,10 @@ Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits)
   source.doing = read_doing(item["doing"]);
   source.exit = read_exit(item["exit"], exits);
   source.towards = read_exit(item["towards"], exits);
+  if (source.towards && !is_destination(exits[*source.towards], exits)) {
+    source.towards.reset();
+    source.doing = Doing::cross;  // to any other exit
+  }
   if (!item["exit"].exists()) {
     if (!item["from"].exists() || !item["to"].exists()) {
       item.reject("no position", "\"exit\", or \"from\" and \"to\"");

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "world/extended_document.h"
+#include "world/scenario_id.h"
+#include "world/scenarios/blueprint/blueprint.h"
 #include "world/scenarios/blueprint/load_scenario.h"
 #include "world/scenarios/check/check_scenario.h"
 #include "world/scenarios/check/survey.h"
@@ -15,21 +18,23 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The remedy of an error that a reader of files has found.
-std::string suggest_remedy(const Problem& problem) {
+std::string suggest_remedy(const Problem& problem, bool of_blueprint) {
   if (problem.found.find("does not exist") != std::string::npos) {
     return "put the file beside the scenario, or correct its name";
   }
   if (problem.where.starts_with("line")) {
     return "correct this element: docs/reference/crowd_vocabulary.md lists what each may say";
   }
-  return "correct this field: docs/reference/scenario.md lists what each may say";
+  return fmt::format("correct this field: docs/reference/{}.md lists what each may say",
+                     of_blueprint ? "blueprint" : "scenario");
 }
 
-std::vector<Finding> to_findings(const InputError& error, const std::string& source) {
+std::vector<Finding> to_findings(const InputError& error, const std::string& source,
+                                 bool of_blueprint) {
   std::vector<Finding> findings;
   for (Problem problem : error.problems()) {
     if (problem.source.empty()) problem.source = source;
-    std::string remedy = suggest_remedy(problem);
+    std::string remedy = suggest_remedy(problem, of_blueprint);
     findings.push_back({Severity::error, std::move(problem), std::move(remedy)});
   }
   return findings;
@@ -40,10 +45,19 @@ void append(std::vector<Finding> more, std::vector<Finding>& all) {
 }
 
 std::vector<Finding> check_file(const fs::path& file) {
+  const std::string source = file.string();
+  bool of_blueprint = world::is_blueprint_name(source);
   try {
-    return check(load_scenario(file, world::id_from_file(file)), file.string());
+    const world::ExtendedDocument document = world::read_extended(file, source);
+    of_blueprint = is_blueprint(document.whole, file);
+    std::vector<Finding> findings = check(load_scenario(file, world::id_from_file(file)), source);
+    for (Finding& finding : findings) {
+      if (finding.problem.source != source) continue;  // of the crowd's files
+      finding.problem = document.in_their_files({std::move(finding.problem)}).front();
+    }
+    return findings;
   } catch (const InputError& error) {
-    return to_findings(error, file.string());
+    return to_findings(error, source, of_blueprint);
   }
 }
 
@@ -55,7 +69,8 @@ std::string Finding::text() const {
 }
 
 std::vector<Finding> check(const world::Scenario& scenario, const std::string& source) {
-  Findings findings(source);
+  const bool of_blueprint = scenario.built_crowd != nullptr;
+  Findings findings(source, of_blueprint);
   check_sizes(scenario, findings);
   check_drawn_ground(scenario, findings);
   check_buildings(scenario, findings);
@@ -76,22 +91,34 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
     check_people(scenario, loaded, routes, findings);
     append(findings.take(), all);
     for (const Problem& warning : loaded.warnings) {
-      all.push_back({Severity::warning, warning, suggest_remedy(warning)});
+      all.push_back({Severity::warning, warning, suggest_remedy(warning, of_blueprint)});
     }
   } catch (const InputError& error) {
-    append(to_findings(error, source), all);
+    append(to_findings(error, source, of_blueprint), all);
   }
   return all;
 }
 
 std::vector<Finding> check_files(const fs::path& file_or_folder) {
-  if (fs::is_regular_file(file_or_folder)) return check_file(file_or_folder);
+  const auto name_finding = [](Problem problem) {
+    return Finding{Severity::warning, std::move(problem), "rename the file or the folder"};
+  };
+  if (fs::is_regular_file(file_or_folder)) {
+    std::vector<Finding> findings = check_file(file_or_folder);
+    if (std::optional<Problem> problem = world::find_name_problem(file_or_folder.filename())) {
+      findings.push_back(name_finding(*std::move(problem)));
+    }
+    return findings;
+  }
   if (!fs::is_directory(file_or_folder)) {
     throw InputError({file_or_folder.string(), "", "nothing", "a scenario file or a folder"});
   }
   std::vector<Finding> findings;
+  for (Problem& problem : world::list_unnamed_scenarios(file_or_folder)) {
+    findings.push_back(name_finding(std::move(problem)));
+  }
   const std::vector<std::string> ids = world::list_scenarios(file_or_folder);
-  if (ids.empty()) {
+  if (ids.empty() && findings.empty()) {
     throw InputError(
         {file_or_folder.string(), "", "no scenario",
          "a folder with scenario files, whose names are words of [a-z0-9_] and .json"});

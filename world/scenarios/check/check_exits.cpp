@@ -83,8 +83,9 @@ void check_use(std::size_t index, const Scenario& scenario, const LoadedCrowd& l
                    fmt::format("at least {} m", kMinWidthM),
                    "widen it, or give its ends in meters");
   } else if (!is_passable(exit, routes)) {
-    findings.error(where, fmt::format("exit \"{}\" blocked by the scene's obstacles", exit.id),
-                   "a way through", "open the obstacle, move the exit or say \"open\": false");
+    findings.error(where, fmt::format("exit \"{}\" blocked by obstacles", exit.id), "a way through",
+                   findings.either("move the building or prop, or the exit, or say \"open\": false",
+                                   "open the obstacle, move the exit or say \"open\": false"));
   } else if (!anybody_reaches(index, loaded, routes)) {
     findings.error(where, fmt::format("exit \"{}\", which nobody can reach", exit.id),
                    "an exit with a way to it", "open a way through the obstacles to it");
@@ -146,16 +147,25 @@ void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Rout
     if (has_demand(exit, loaded.crowd.goals)) {
       any_demand = true;
     } else {
-      findings.warning(where, fmt::format("exit \"{}\", which no state heads for", exit.id),
-                       "a <GoalSelector> with the goal set of one of its goals",
-                       "choose among the exits' goals somewhere, or take the exit away");
+      findings.warning(
+          where,
+          fmt::format("exit \"{}\", which {} heads for", exit.id,
+                      findings.either("nobody", "no state")),
+          findings.either("people who cross, leave or flee, or a source \"towards\" it",
+                          "a <GoalSelector> with the goal set of one of its goals"),
+          findings.either("let somebody \"cross\" or \"leave\", or take the exit away",
+                          "choose among the exits' goals somewhere, or take the exit away"));
     }
   }
   if (!any_open) {
-    findings.error("/exits", "no open exit", "at least one", "add an exit, or open one");
+    findings.error("/exits", "no open exit, so that nobody can leave", "at least one",
+                   "add an exit, or open one");
   } else if (!any_demand) {
-    findings.error("/exits", "no exit that anybody heads for", "at least one",
-                   "let a state of the behavior file choose among the exits' goals");
+    findings.error(
+        "/exits", "no exit that anybody heads for", "at least one",
+        findings.either(
+            "let somebody \"cross\" or \"leave\", or add a disaster from which they flee",
+            "let a state of the behavior file choose among the exits' goals"));
   }
 }
 

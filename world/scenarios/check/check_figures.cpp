@@ -27,7 +27,7 @@ void check_drawn_ground(const Scenario& scenario, Findings& findings) {
 }
 
 void check_outsiders(const Scenario& scenario, const LoadedCrowd& loaded, Findings& findings) {
-  Sufferers outside;
+  Sufferers outside(loaded);
   std::size_t people = 0;
   for (std::size_t agent = 0; agent < loaded.count(); ++agent) {
     if (!is_to_arrive_or_there(loaded, agent)) continue;
@@ -40,17 +40,20 @@ void check_outsiders(const Scenario& scenario, const LoadedCrowd& loaded, Findin
                    fmt::format("{}, out of {} people: no figure counts them until they are inside",
                                outside.text(), people),
                    "people who start and arrive inside",
-                   "move their generators, or enlarge \"inside\"");
+                   "start them inside, or enlarge \"inside\"");
 }
 
 void check_outline(const Scenario& scenario, const OutlineSurvey& survey, Findings& findings) {
   const std::string expected = "walls with no way out but the exits, which count people";
+  const char* const where = findings.either("/buildings", "/crowd/scene");
   if (survey.is_open) {
-    findings.warning("/crowd/scene",
+    findings.warning(where,
                      fmt::format("a scenario that walls do not close: people leave it without "
                                  "passing an exit, for example at {}",
                                  point_text(survey.open_at)),
-                     expected, "put obstacles between the exits, or more exits");
+                     expected,
+                     findings.either("put buildings between the exits, or more exits",
+                                     "put obstacles between the exits, or more exits"));
   }
   for (const Gap& gap : survey.gaps) {
     const auto distance_m = [&](const Exit& exit) {
@@ -62,12 +65,15 @@ void check_outline(const Scenario& scenario, const OutlineSurvey& survey, Findin
     constexpr double kInDoorM = 1.5;  // a wall may be so thick
     const bool is_door = !nearest.open && distance_m(nearest) < kInDoorM;
     findings.warning(
-        "/crowd/scene",
+        where,
         fmt::format("a gap {:.1f} m wide at {}, {} exit \"{}\"{}, by which people leave without "
                     "passing an open exit",
                     gap.width_m, point_text(gap.middle), is_door ? "in" : "nearest to", nearest.id,
                     is_door ? ", which is closed but has no obstacle" : ""),
-        expected, "close it with an <Obstacle>, or make an exit of it");
+        expected,
+        findings.either(
+            "close it with a building, which may be as thin as a wall, or make an exit of it",
+            "close it with an <Obstacle>, or make an exit of it"));
   }
 }
 

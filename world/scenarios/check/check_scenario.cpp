@@ -127,10 +127,10 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
                   Findings& findings) {
   // Beside a wall, the nearest free cell may be the next one, which on large grounds is far.
   const double slack_m = std::max(0.5, 1.5 * static_cast<double>(routes.grid.cell_m));
-  Sufferers in_walls;
-  Sufferers in_buildings;
-  Sufferers in_props;
-  Sufferers locked_in;
+  Sufferers in_walls(loaded);
+  Sufferers in_buildings(loaded);
+  Sufferers in_props(loaded);
+  Sufferers locked_in(loaded);
   std::size_t people = 0;
   std::vector<world::Rectangle> bounds;
   for (const Building& building : scenario.buildings)
@@ -153,7 +153,11 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
     for (std::size_t i = 0; i < scenario.props.size(); ++i) {
       if ((scenario.props[i].position - at).squaredNorm() < 400 &&
           world::distance_to(scenario.props[i], at) == 0) {
-        in_props.add(agent, at, fmt::format("in prop {}", i));
+        in_props.add(
+            agent, at,
+            fmt::format("in the {} at {}",
+                        world::prop_types()[static_cast<std::size_t>(scenario.props[i].kind)].name,
+                        point_text(scenario.props[i].position)));
       }
     }
     if (routes.cell_at(at) == Routes::kNone) continue;  // outside: nothing to escape from
@@ -163,22 +167,27 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
       locked_in.add(agent, at, "with no way to any open exit");
     }
   }
-  const std::string scene = "/crowd/scene";
   if (people == 0) {
-    findings.error(scene, "nobody", "at least one agent who is a person",
-                   "add an <AgentGroup> to the scene file");
+    findings.error(findings.either("/people", "/crowd/scene"), "nobody",
+                   "at least one agent who is a person",
+                   findings.either("add \"groups\", \"lines\" or \"sources\"",
+                                   "add an <AgentGroup> to the scene file"));
   }
-  const std::string move = "move the generator of these agents, or the obstacle";
-  if (in_walls.any()) findings.error(scene, in_walls.text(), "people on free ground", move);
+  const std::string move = findings.either("move the people, or the building or prop",
+                                           "move the generator of these agents, or the obstacle");
+  if (in_walls.any()) {
+    findings.error(in_walls.where(), in_walls.text(), "people on free ground", move);
+  }
   if (in_buildings.any()) {
-    findings.error(scene, in_buildings.text(), "people outside of buildings", move);
+    findings.error(in_buildings.where(), in_buildings.text(), "people outside of buildings", move);
   }
   if (in_props.any()) {
-    findings.error(scene, in_props.text(), "people beside the props",
+    findings.error(in_props.where(), in_props.text(), "people beside the props",
                    "move the prop or the people");
   }
   if (locked_in.any()) {
-    findings.error(scene, locked_in.text(), "ground from which an open exit can be reached",
+    findings.error(locked_in.where(), locked_in.text(),
+                   "ground from which an open exit can be reached",
                    "open the walls, or add an exit there");
   }
 }
@@ -224,11 +233,13 @@ void check_ground(const Scenario& scenario, const Routes& routes, Findings& find
   }
   const double area = static_cast<double>(cells) * routes.grid.cell_m * routes.grid.cell_m;
   if (area < kWorthNamingM2) return;
-  findings.warning("/crowd/scene",
+  findings.warning(findings.either("/inside", "/crowd/scene"),
                    fmt::format("{:.3g} m² of free ground, for example at {}, from where no open "
                                "exit can be reached",
                                area, point_text(first)),
-                   "ground that people can leave", "fill it with an obstacle or open a way out");
+                   "ground that people can leave",
+                   findings.either("fill it with a building, or open a way out",
+                                   "fill it with an obstacle or open a way out"));
 }
 
 }  // namespace throng::scenarios

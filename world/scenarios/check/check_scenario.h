@@ -13,7 +13,13 @@ namespace throng::scenarios {
 /// Collects findings about one scenario file.
 class Findings {
  public:
-  explicit Findings(std::string source) : source_(std::move(source)) {}
+  Findings(std::string source, bool of_blueprint)
+      : source_(std::move(source)), of_blueprint_(of_blueprint) {}
+
+  /// The text for those who wrote a blueprint, or the one for those who wrote the crowd's files.
+  const char* either(const char* blueprint, const char* crowd_files) const {
+    return of_blueprint_ ? blueprint : crowd_files;
+  }
   void error(std::string where, std::string found, std::string expected, std::string remedy) {
     add(Severity::error, std::move(where), std::move(found), std::move(expected),
         std::move(remedy));
@@ -32,6 +38,7 @@ class Findings {
 
  private:
   std::string source_;
+  bool of_blueprint_;
   std::vector<Finding> found_;
 };
 

@@ -19,16 +19,26 @@ inline std::string point_text(const Eigen::Vector2d& point) {
 /// Collects the people with the same problem.
 class Sufferers {
  public:
-  void add(std::size_t agent, const Eigen::Vector2d& at, std::string what) {
-    if (count_++ == 0) first_ = fmt::format("agent {} at {} {}", agent, point_text(at), what);
+  explicit Sufferers(const LoadedCrowd& loaded) : loaded_(loaded) {}
+
+  void add(std::size_t agent, const Eigen::Vector2d& at, const std::string& what) {
+    if (count_++ > 0) return;
+    where_ = loaded_.part_of(agent);
+    const std::string who =
+        loaded_.parts.empty() ? fmt::format("agent {}", agent) : std::string("a person");
+    first_ = fmt::format("{} at {} {}", who, point_text(at), what);
   }
   bool any() const { return count_ > 0; }
+  /// The JSON pointer to what says where the first one starts.
+  const std::string& where() const { return where_; }
   std::string text() const {
     return count_ > 1 ? fmt::format("{}, and {} more", first_, count_ - 1) : first_;
   }
 
  private:
+  const LoadedCrowd& loaded_;
   std::size_t count_ = 0;
+  std::string where_;
   std::string first_;
 };
 

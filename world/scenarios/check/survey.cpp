@@ -149,7 +149,25 @@ void walk_from_doors(const world::Scenario& scenario, Routes& routes) {
   }
 }
 
+/// The groups of a blueprint's crowd, whose comments are JSON pointers (crowd_scene.cpp).
+std::vector<std::pair<std::size_t, std::string>> list_parts(
+    const crowd::Node& scene, const std::vector<std::size_t>& first_agents) {
+  std::vector<std::pair<std::size_t, std::string>> parts;
+  for (const crowd::Node& node : scene.children) {
+    if (node.name == "AgentGroup") parts.emplace_back(first_agents[parts.size()], node.comment);
+  }
+  return parts;
+}
+
 }  // namespace
+
+std::string LoadedCrowd::part_of(std::size_t agent) const {
+  std::string part = "/crowd/scene";
+  for (const auto& [first, pointer] : parts) {
+    if (first <= agent) part = pointer;
+  }
+  return part;
+}
 
 LoadedCrowd load_scenario_crowd(const world::Scenario& scenario) {
   LoadedCrowd loaded;
@@ -163,9 +181,13 @@ LoadedCrowd load_scenario_crowd(const world::Scenario& scenario) {
   const crowd::Scene parts =
       crowd::load_scene(scene.root(), states, model, sequences, loaded.crowd);
   crowd::load_behavior(behavior.root(), states, parts.profile_modifiers, sequences, loaded.crowd);
-  loaded.warnings = scene.warnings();
-  loaded.warnings.insert(loaded.warnings.end(), behavior.warnings().begin(),
-                         behavior.warnings().end());
+  if (scenario.built_crowd) {
+    loaded.parts = list_parts(description.scene.root, parts.first_agents);
+  } else {
+    loaded.warnings = scene.warnings();
+    loaded.warnings.insert(loaded.warnings.end(), behavior.warnings().begin(),
+                           behavior.warnings().end());
+  }
   loaded.is_person.assign(loaded.crowd.agents.count(), 1);
   for (const int agent : scenario.disaster_agents) {
     if (static_cast<std::size_t>(agent) < loaded.count()) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crowd/crowd.h"
@@ -18,7 +19,11 @@ struct LoadedCrowd {
   crowd::Crowd crowd;
   std::vector<std::uint8_t> is_person;  ///< per agent; 0: represents a disaster
   std::vector<Problem> warnings;        ///< ignored parts of the files
+  /// The first agent of each part of a blueprint's people, and the part's JSON pointer.
+  std::vector<std::pair<std::size_t, std::string>> parts;
 
+  /// The JSON pointer to what says where an agent starts.
+  std::string part_of(std::size_t agent) const;
   std::size_t count() const { return is_person.size(); }
   Eigen::Vector2d start(std::size_t agent) const {
     return crowd.agents.position[agent].cast<double>();

@@ -74,6 +74,13 @@ TEST_F(Resolve, AResolvedJobResolvesToItself) {
   EXPECT_EQ(to_json(read_resolved_job(once.dump(), "").spec()), once);
 }
 
+TEST_F(Resolve, ARunMayGoOnAfterItsImages) {
+  const JobSpec job = resolved(R"({"scenario": "yard", "capture": {"to_s": 3, "run_to_s": 40}})");
+  EXPECT_EQ(run_spec(job, 0).duration_s, 40);
+  EXPECT_EQ(job.frames_per_camera(), 4);
+  EXPECT_EQ(run_spec(resolved(R"({"scenario": "yard", "capture": {"to_s": 3}})"), 0).duration_s, 3);
+}
+
 TEST_F(Resolve, EachMistakeIsNamedByItsPointer) {
   const std::pair<const char*, const char*> cases[] = {
       {R"({"scenario": "nowhere"})", "/scenario"},

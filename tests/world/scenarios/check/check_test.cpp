@@ -222,7 +222,7 @@ TEST_F(CheckYard, WarnsOfGroundThatIsSmallerThanTheInside) {
 
 TEST_F(CheckYard, SeesPeopleInProps) {
   yard.scenario["props"] = nlohmann::json::parse(R"([{"kind": "stall", "position": [-3, -3]}])");
-  expect_error("/crowd/scene", "in prop 0");
+  expect_error("/crowd/scene", "in the stall at [-3, -3]");
 }
 
 TEST_F(CheckYard, SeesBuildingsThatOverlap) {
