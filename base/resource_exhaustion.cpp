@@ -27,17 +27,18 @@ void throw_environment_error(const std::string& message, int error) {
   throw EnvironmentError(text);
 }
 
-void throw_write_error(const std::filesystem::path& file, int error) {
-  if (error != 0) throw_environment_error(fmt::format("cannot write {}", file.string()), error);
+int likely_write_error(const std::filesystem::path& file) {
   constexpr std::uintmax_t kFullBytes = 64 << 10;
   std::error_code unknown;
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  if (::access(folder.c_str(), W_OK) != 0) {
-    throw_environment_error(fmt::format("cannot write {}", file.string()), errno);
-  }
+  if (::access(folder.c_str(), W_OK) != 0) return errno;
   const std::filesystem::space_info space = std::filesystem::space(folder, unknown);
-  const bool is_full = !unknown && space.available < kFullBytes;
-  throw_environment_error(fmt::format("cannot write {}", file.string()), is_full ? ENOSPC : EIO);
+  return !unknown && space.available < kFullBytes ? ENOSPC : EIO;
+}
+
+void throw_write_error(const std::filesystem::path& file, int error) {
+  throw_environment_error(fmt::format("cannot write {}", file.string()),
+                          error != 0 ? error : likely_write_error(file));
 }
 
 bool is_resource_exhaustion(const std::exception& error) {

@@ -25,9 +25,12 @@ class ResourcesExhausted : public EnvironmentError {
 /// errno.
 bool is_resource_exhaustion(const std::exception& error);
 
+/// The errno of a failed write that a library reports as failed, or as an I/O error, only: that of
+/// missing write access, of a full disk or, if neither is found, EIO.
+int likely_write_error(const std::filesystem::path& file);
+
 /// Throws EnvironmentError("cannot write FILE: No space left on device"). `error` is an errno, or 0
-/// if a library does not report it: then the text names missing write access, a full disk or, if
-/// neither is found, an I/O error.
+/// for likely_write_error().
 [[noreturn]] void throw_write_error(const std::filesystem::path& file, int error);
 
 }  // namespace throng

@@ -116,11 +116,16 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
     fs::create_directories(parent_folder(to), error);
     if (!error) fs::create_hard_link(from, to, error);
   }
-  if (error) fs::copy_file(from, to, error);
-  if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
-  }
+  if (error) copy_new_file(from, to);
+}
+
+void copy_new_file(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::copy_file(from, to, error);
+  if (!error) return;
+  // The standard library copies with sendfile(), whose error it replaces.
+  throw_environment_error(fmt::format("cannot copy {} to {}", from.string(), to.string()),
+                          error == std::errc::io_error ? likely_write_error(to) : error.value());
 }
 
 bool is_within(const fs::path& path, const fs::path& folder) {

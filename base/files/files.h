@@ -27,6 +27,9 @@ void make_folders(const std::filesystem::path& folder);
 /// Throws EnvironmentError with both names.
 void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// Copies a file to a name that no file has. Throws EnvironmentError with both names.
+void copy_new_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// A file under construction, for content that is too large for memory. commit() gives the file its
 /// final name and replaces an older file; without it, the destructor removes the file.
 class StagedFile {

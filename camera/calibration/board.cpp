@@ -113,11 +113,12 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
   const std::optional<cv::Size> there = size_of_any_chessboard(small.image);
   const bool fits = there && ((there->width == size.width && there->height == size.height) ||
                               (there->width == size.height && there->height == size.width));
-  // An apparent extra row may be a shadow at the border: the other method has to find it, too.
+  // An apparent extra row may be a shadow at the border, and an apparent board a crowd: the other
+  // method has to find it, too.
   std::vector<cv::Point2f> others;
-  const bool larger = there && found && there->area() > size.area() &&
-                      cv::findChessboardCorners(small.image, *there, others);
-  if (there && !fits && (larger || !found)) {
+  const bool is_other = there && !fits && (!found || there->area() > size.area()) &&
+                        cv::findChessboardCorners(small.image, *there, others);
+  if (is_other) {
     return no_board(
         name, board,
         fmt::format("a chessboard of {} x {} inner corners", std::max(there->width, there->height),

@@ -88,15 +88,35 @@ ApiClient::~ApiClient() = default;
 
 namespace {
 
+/// Why no answer came: what there is to mend, or "" where nothing listens.
+std::string failure(httplib::Error error) {
+  switch (error) {
+    case httplib::Error::Connection:
+      return "";
+    case httplib::Error::SSLConnection:
+      return ": it does not speak TLS; expected an address that begins with http:// if the service "
+             "is not behind a proxy that does";
+    case httplib::Error::SSLLoadingCerts:
+      return ": the certificates of this machine cannot be read";
+    case httplib::Error::SSLServerVerification:
+      return ": no authority that this machine trusts has signed its certificate";
+    case httplib::Error::Read:
+      return ": the connection ended before the answer; a service with TLS needs an address that "
+             "begins with https://";
+    case httplib::Error::ConnectionTimeout:
+      return ": it does not answer in time";
+    default:
+      return ": " + httplib::to_string(error);
+  }
+}
+
 const httplib::Response& checked(const httplib::Result& result, const std::string& url,
                                  const std::string& path) {
   if (!result) {
-    throw EnvironmentError(fmt::format(
-        "cannot reach {}{} (is `throng serve` running? The environment variable "
-        "THRONG_URL sets the address)",
-        url,
-        result.error() == httplib::Error::Connection ? ""
-                                                     : ": " + httplib::to_string(result.error())));
+    throw EnvironmentError(
+        fmt::format("cannot reach {}{} (is `throng serve` running? The environment variable "
+                    "THRONG_URL sets the address)",
+                    url, failure(result.error())));
   }
   if (is_success(result->status)) return *result;
   constexpr int kServersFault = 500;

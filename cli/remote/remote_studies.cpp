@@ -16,6 +16,7 @@
 #include "base/files/files.h"
 #include "base/text/suggest.h"
 #include "base/text/url.h"
+#include "base/text/words.h"
 #include "cli/remote/api_client.h"
 #include "cli/remote/bundle.h"
 #include "cli/remote/remote_end.h"
@@ -108,9 +109,11 @@ void submit_study(const StudySubmission& arguments) {
   require_kind(DocumentKind::study, text, arguments.file);
   if (arguments.dry_run) {
     const json plan = api.post(fmt::format("{}?dry_run", kStudiesPath), text);
-    fmt::print("{} cases, {} policies, {} runs of each: {} simulations\n", plan["cases"].size(),
-               plan["policies"].size(), plan["runs"].get<int>(),
-               plan["simulations"].get<std::int64_t>());
+    const auto size = [&](const char* list) { return static_cast<std::int64_t>(plan[list].size()); };
+    fmt::print("{}, {}, {} of each: {}\n", counted(size("cases"), "case"),
+               counted(size("policies"), "policy", "policies"),
+               counted(plan["runs"].get<std::int64_t>(), "run"),
+               counted(plan["simulations"].get<std::int64_t>(), "simulation"));
     return;
   }
   const std::string id = api.post(kStudiesPath, text)["id"];

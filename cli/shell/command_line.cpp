@@ -42,8 +42,14 @@ const CLI::App* command_named(const CLI::App& app, const std::string& name) {
        app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); })) {
     names.push_back(command->get_name());
   }
-  throw InputError(unknown_name("", "", "command", word,
-                                std::vector<std::string_view>(names.begin(), names.end())));
+  Problem problem = unknown_name("", "", "command", word,
+                                 std::vector<std::string_view>(names.begin(), names.end()));
+  // `throng scenario list` is `throng scenarios`.
+  const CLI::App* lister = app.get_parent() == nullptr || word != "list"
+                               ? nullptr
+                               : command_named(*app.get_parent(), app.get_name() + "s");
+  if (lister != nullptr) problem.expected = fmt::format("`throng {}`", lister->get_name());
+  throw InputError(problem);
 }
 
 }  // namespace

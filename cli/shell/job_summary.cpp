@@ -75,14 +75,21 @@ std::string headline(const json& warnings) {
   return warnings.empty() ? "valid" : "valid, " + counted(warnings.size(), "warning");
 }
 
+/// People who take part and have not come by the end of a run are in none of its images.
+std::string people_text(const json& answer) {
+  const std::int64_t people = answer["people"];
+  const std::int64_t asked = answer["job"].value(json::json_pointer("/crowd/agents"), people);
+  if (people >= asked) return fmt::format("{}", people);
+  return fmt::format("{} of {}, as the others come after the end", people, asked);
+}
+
 }  // namespace
 
 void print_job_summary(const json& answer, const std::string& file, int cores) {
   const json& estimate = answer["estimate"];
   const json& warnings = answer["warnings"];
   fmt::print("{}: {}\n", file, headline(warnings));
-  fmt::print("  {:<10}{}, {}\n", "people", answer["people"].get<std::int64_t>(),
-             counted(answer["runs"], "run"));
+  fmt::print("  {:<10}{}, {}\n", "people", people_text(answer), counted(answer["runs"], "run"));
   print_light(answer["job"]["environment"]);
   const std::int64_t images = answer["frames"];
   fmt::print("  {:<10}{}\n", "images",

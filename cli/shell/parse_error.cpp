@@ -81,6 +81,10 @@ Problem unexpected(const NamedCommand& command, std::string word,
             fmt::format("what `{} --help` lists", command.name)};
   }
   const std::string name = word.substr(0, word.find('='));
+  if (std::find(known.begin(), known.end(), name) != known.end()) {
+    return {command.name, "", fmt::format("{} before the command", name),
+            fmt::format("{} behind `{}`", name, command.name)};
+  }
   Problem problem = unknown_name(command.name, "", "option", name,
                                  std::vector<std::string_view>(known.begin(), known.end()));
   if (const auto longer = longer_option(known, name)) problem.expected = '"' + *longer + '"';

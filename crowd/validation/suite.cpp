@@ -100,8 +100,10 @@ std::string markdown(const Results& results) {
       "Printed by `throng validate-crowd`. The model `ttc` is what a job gets that names none "
       "([crowd.md](crowd.md)). **+** passed, **-** failed, **o** reported (the source "
       "sets no criterion, and the test counts for nothing), with what was measured. Tests of RiMEA "
-      "and NIST TN 1822 that need stairs, smoke, lifts or groups are left out, since a crowd in a "
-      "plane has none; criteria are those of published implementations (JuPedSim, Vadere).\n\n";
+      "and NIST TN 1822 that need stairs, smoke or lifts are left out, since a crowd in a plane "
+      "has "
+      "none, and so is NIST 2.9 (groups), whose result is no figure; criteria are those of "
+      "published implementations (JuPedSim, Vadere).\n\n";
   if (results.effort == Effort::reduced) {
     page +=
         "Reduced (`--reduced`): fewer people, densities and runs than the set-ups below say.\n\n";

@@ -184,6 +184,8 @@ class StudyReader {
   // the case is watched, and the shorter one, which few stragglers reach, 150 s or half of that.
   void read_horizons(const JsonValue& item, Case& one) {
     constexpr double kShorterS = 150;
+    const auto is_right = [](const JsonValue& time) { return !time.exists() || time.is_number(); };
+    if (!is_right(item["duration_s"]) || !is_right(item["alarm_s"])) return;  // reported
     const double watched_s = one.duration_s - one.alarm.at_s.value_or(0);
     if (watched_s <= 0) {
       const bool own_alarm = item["alarm_s"].exists();

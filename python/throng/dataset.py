@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ._npy import read_npy
 from ._optional import require
-from ._words import counted
+from ._words import counted, known_names
 from .annotations import NAMES, AnnotationFilter
 from .errors import DatasetError
 from .frame import Frame
@@ -56,9 +56,14 @@ class Dataset(Sequence[Frame]):
         if isinstance(index, slice):
             return self._view(self._frames[index])
         if isinstance(index, (list, np.ndarray)):
-            return self._view([self._frames[int(i)] for i in index])
-        source, image = self._frames[index]
+            return self._view([self._index(int(i)) for i in index])
+        source, image = self._index(index)
         return Frame(self._sources[source], self._sources[source].labels.images[image], self._keep)
+
+    def _index(self, index: int) -> tuple[int, int]:
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"dataset[{index}]: found {counted(len(self), 'frame')}, expected an index below {len(self)}")
+        return self._frames[index]
 
     def __iter__(self) -> Iterator[Frame]:
         for i in range(len(self)):
@@ -220,7 +225,14 @@ class Dataset(Sequence[Frame]):
         from_s: float = -math.inf,
         to_s: float = math.inf,
     ) -> Dataset:
-        """The frames for which all conditions hold. min_people counts what filter_annotations left."""
+        """The frames for which all conditions hold. min_people counts what filter_annotations left.
+
+        Raises ValueError for a run or a camera of which the whole dataset has no frame.
+        """
+        records = [image for source in self._sources for image in source.labels.images]
+        runs = known_names("runs", runs, (str(image.get("run")) for image in records))
+        cameras = known_names("cameras", cameras, (str(image.get("camera_id")) for image in records))
+        known_names("split", split, ("train", "val", "test"))
 
         def keeps(frame: Frame) -> bool:
             return (
@@ -278,7 +290,7 @@ class Dataset(Sequence[Frame]):
         wanted = sum(share > 0 for share in shares.values())
         if len(keys) < wanted:
             raise ValueError(
-                f'by="{by}": found {len(keys)} groups, expected at least one for each of {wanted} parts: '
+                f'by="{by}": found {counted(len(keys), by)}, expected at least one for each of {wanted} parts: '
                 'make a dataset of more runs, or split by "sequence" or "frame"'
             )
         order = np.random.default_rng(seed).permutation(len(keys))

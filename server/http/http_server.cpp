@@ -283,6 +283,25 @@ class HttpServer::BoundedServer : public httplib::Server {
 
 thread_local std::int64_t HttpServer::BoundedServer::reserved_ = 0;
 
+namespace {
+
+/// `error` is an errno; 0: the library has none, as for names without an address.
+[[noreturn]] void throw_listen_error(const HttpOptions& options, int error) {
+  const char* advice = "";
+  if (error == 0) advice = ": no address of this machine has this name";
+  if (error == EADDRINUSE) advice = ": another program listens there; --port chooses another";
+  if (error == EACCES) {
+    advice =
+        ": ports below 1024 are for root and holders of CAP_NET_BIND_SERVICE; "
+        "--port chooses another";
+  }
+  throw EnvironmentError(fmt::format("cannot listen on {} port {}{}{}", options.host, options.port,
+                                     error == 0 ? "" : fmt::format(": {}", std::strerror(error)),
+                                     advice));
+}
+
+}  // namespace
+
 HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_error)
     : server_(std::make_unique<BoundedServer>(options, write_error)) {
   server_->set_default_headers({{"X-Content-Type-Options", "nosniff"},
@@ -309,13 +328,11 @@ HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_erro
         }
       });
 
+  errno = 0;
   port_ = options.port == 0
               ? server_->bind_to_any_port(options.host)
               : (server_->bind_to_port(options.host, options.port) ? options.port : -1);
-  if (port_ <= 0) {
-    throw EnvironmentError(
-        fmt::format("cannot listen on {} port {}: is the port taken?", options.host, options.port));
-  }
+  if (port_ <= 0) throw_listen_error(options, errno);
   server_->own(listener);
   // A connection takes a thread when its first bytes are there.
   ::setsockopt(listener, IPPROTO_TCP, TCP_DEFER_ACCEPT, &kSilentS, sizeof(kSilentS));

@@ -35,8 +35,10 @@ std::vector<AgentRole> choose_roles(const std::string& scenario,
   }
   if (!people) return roles;
   if (*people < 0 || static_cast<std::size_t>(*people) > tickets.size()) {
-    problems.push_back({"", "/crowd/agents", std::to_string(*people),
-                        fmt::format("1 to {}, the people in the scenario", tickets.size())});
+    problems.push_back(
+        {"", "/crowd/agents", std::to_string(*people),
+         fmt::format("1 to {}, all who are in the scenario at the start or come later",
+                     tickets.size())});
     return roles;
   }
   std::sort(tickets.begin(), tickets.end());

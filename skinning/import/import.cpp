@@ -87,15 +87,6 @@ std::string joined_license(std::string license,
   return license;
 }
 
-void copy_over(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::copy_file(from, to, error);
-  if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
-  }
-}
-
 }  // namespace
 
 void import_characters(const std::vector<fs::path>& descriptions, const fs::path& output_folder,
@@ -112,7 +103,7 @@ void import_characters(const std::vector<fs::path>& descriptions, const fs::path
   std::string content = base.index.content_hash;
   if (!options.with.empty()) {
     for (const Character& entry : base.index.characters) {
-      copy_over(options.with / (entry.name + kMeshExtension),
+      copy_new_file(options.with / (entry.name + kMeshExtension),
                 staging.path() / (entry.name + kMeshExtension));
     }
     palettes.write(read_file(options.with / kPalettesFile));

@@ -31,6 +31,7 @@ void set_scenario(JobSpec& job, const json& value, const FieldLocation& place) {
   if (value.size() != 1 || !value.contains("generate")) {
     place.problems.push_back(
         {"", place.pointer, value.dump(), "an id, or an object with only \"generate\""});
+    return;
   }
   job.generate = scenarios::read_generator_spec(value.value("generate", json()),
                                                 place.pointer + "/generate", place.problems);

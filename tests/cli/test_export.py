@@ -67,6 +67,23 @@ class Export(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return out, done.stderr
 
+    def test_a_full_disk_is_named(self):
+        room = self.base / "room"
+        room.mkdir()
+        script = 'mount -t tmpfs -o size=60k none "$0" || exit 77; exec "$@"'
+        for name in ("voc", "yolo-detect", "mcap"):
+            export = [THRONG, "export", self.dataset, "--formats", name, "-o", room / "out"]
+            done = subprocess.run(
+                ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script, *map(str, [room, *export])],
+                capture_output=True,
+                text=True,
+                timeout=300,
+            )
+            if done.returncode == 77 or "unshare" in done.stderr:
+                self.skipTest("no right to mount")
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("No space left on device", done.stderr)
+
     def test_an_export_has_the_splits_filters_and_classes_of_the_job(self):
         out, said = self.export("same")
         self.assertIn("splits: train run001; val run000; test run002", said)

@@ -250,6 +250,41 @@ class Messages(unittest.TestCase):
         self.refused("throng keys: found no command, expected one of: ", "keys")
         self.refused("--classes: found x, expected one of: ", "export", "d", "--classes", "x")
 
+    def test_an_option_before_its_command_is_told_its_place(self):
+        self.refused("found -o before the command, expected -o behind `throng run`", "-o", "out", "run", self.job())
+        self.refused(
+            "found -o before the command, expected -o behind `throng people sheet`", "people", "-o", "x", "sheet"
+        )
+        self.refused('unknown command "list"; expected `throng scenarios`', "scenario", "list")
+
+    def test_wrong_values_of_a_study_are_said_once(self):
+        study = self.folder / "study.json"
+        case = {"id": "a", "scenario": "city_square/nearest_exit", "duration_s": "200"}
+        study.write_text(json.dumps({"name": "x", "runs": 2, "cases": [case]}))
+        done = throng("study", study, "-o", self.folder / "out")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("expected"), 1, done.stderr)
+        self.refused("--runs: found 0, expected a number above 0", "study", study, "-o", "x", "--runs", "0")
+
+    def test_a_scenario_that_is_an_object_of_something_else_is_said_once(self):
+        job = self.job(scenario={"kind": "plaza"})
+        done = throng("check", job)
+        self.assertEqual((done.returncode, done.stderr.count("expected")), (2, 1), done.stderr)
+
+    def test_what_may_be_no_mistake_is_asked(self):
+        radians = {"id": "d", "start": [0, 0, 20], "camera": {"pitch_deg": -1.57}}
+        said = throng("check", self.job(drones=[radians])).stdout
+        self.assertIn("/drones/0/camera/pitch_deg: found -1.57 degrees, expected -90 if it is meant in radians", said)
+        for pitch in (-1.5, -30, -2, -0.4):
+            fine = {**radians, "camera": {"pitch_deg": pitch}}
+            self.assertNotIn("radians", throng("check", self.job(drones=[fine])).stdout, pitch)
+        self.refused("1 to ", "check", self.job(crowd={"agents": 1_000_000}))
+        arriving = json.loads(self.job(scenario="concert/everyday", crowd={"agents": 2000}).read_text())
+        arriving["capture"] = {"to_s": 1, "rate_hz": 1}
+        (self.folder / "my.job.json").write_text(json.dumps(arriving))
+        said = throng("check", self.folder / "my.job.json").stdout
+        self.assertRegex(said, r"people +1\d+ of 2000, as the others come after the end")
+
     def test_inputs_are_not_written_over(self):
         job = self.job()
         text = job.read_text()
@@ -391,6 +426,17 @@ class Messages(unittest.TestCase):
     def test_a_server_that_is_not_there_is_named(self):
         url = f"http://127.0.0.1:{free_port()}"
         self.refused(f"cannot reach {url} (is `throng serve` running?", "jobs", code=3, THRONG_URL=url)
+
+    def test_ports_and_addresses_say_why(self):
+        server, port = start_service(THRONG, self.folder / "data")
+        self.addCleanup(server.wait, 120)
+        self.addCleanup(server.terminate)
+        serve = ("serve", "--data", self.folder / "other")
+        self.refused("another program listens there", *serve, "--port", port, code=3)
+        self.refused(
+            "Cannot assign requested address", *serve, "--port", 0, "--host", "192.0.2.1", "--insecure", code=3
+        )
+        self.refused("it does not speak TLS", "jobs", code=3, THRONG_URL=f"https://127.0.0.1:{port}")
 
     def test_renamed_options_keep_their_old_names_with_a_warning(self):
         data = self.folder / "data"

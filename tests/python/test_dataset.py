@@ -351,6 +351,20 @@ class Views(unittest.TestCase):
             {f.sequence for f in self.dataset.filter(runs=["run001"], cameras=["d1", "d3"])}, {"run001/d1", "run001/d3"}
         )
         self.assertEqual(len(self.dataset.filter(split="val")), 9)
+        self.assertEqual(len(self.dataset.filter(cameras="d1")), len(self.dataset.filter(cameras=["d1"])))
+        first = self.dataset.filter(runs=["run000"])
+        self.assertEqual(len(first.filter(runs=["run001"])), 0, "a run of the dataset, of which the view has nothing")
+        for wrong, message in (
+            ({"cameras": ["D1"]}, "cameras: found 'D1', expected one of d1, .*did you mean 'd1'"),
+            ({"runs": "run01"}, "runs: found 'run01', expected one of run000, .*did you mean 'run001'"),
+            ({"split": "valid"}, "split: found 'valid', expected one of test, train, val .did you mean 'val'"),
+        ):
+            with self.subTest(wrong), self.assertRaisesRegex(ValueError, message):
+                self.dataset.filter(**wrong)
+        count = len(self.dataset)
+        for index in (count, -count - 1):
+            with self.assertRaisesRegex(IndexError, f"dataset.{index}.: found {count} frames"):
+                self.dataset[index]
         self.assertEqual({f.time_s for f in self.dataset.filter(from_s=8.5, to_s=9.5)}, {9.0})
         self.assertEqual(len(self.dataset.filter(lambda f: f.index == 2)), 6)
         crowded = self.dataset.filter(min_people=30)

@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "formats/export/exporter.h"
 #include "jobs/pipeline/pipeline.h"
@@ -85,6 +88,32 @@ void check_splits(const JobSpec& job, std::vector<Problem>& warnings) {
   }
 }
 
+/// Whether an angle is more likely a usual one in radians, such as -1.57, than in degrees.
+bool may_be_radians(double degrees) {
+  constexpr double kPart = std::numbers::pi / 12;
+  constexpr double kRounding = 0.003;
+  const double parts = std::round(degrees / kPart);
+  return parts != 0 && std::abs(degrees) < 2 * std::numbers::pi + kRounding &&
+         std::abs(degrees - parts * kPart) < kRounding && degrees != std::round(degrees);
+}
+
+void check_angles(const JobSpec& job, std::vector<Problem>& warnings) {
+  constexpr std::array kAngles = {"pitch_deg", "yaw_deg"};
+  const nlohmann::json fields = to_json(job);
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    for (const char* angle : kAngles) {
+      const std::string pointer = fmt::format("{}/{}", camera_pointer(i), angle);
+      const nlohmann::json::json_pointer place(pointer);
+      if (!fields.contains(place) || !fields.at(place).is_number()) continue;
+      const auto degrees = fields.at(place).get<double>();
+      if (!may_be_radians(degrees)) continue;
+      warnings.push_back(
+          {"", pointer, fmt::format("{:g} degrees", degrees),
+           fmt::format("{:.0f} if it is meant in radians", degrees * 180 / std::numbers::pi)});
+    }
+  }
+}
+
 double ground_distance_m(const world::Rectangle& area, const Eigen::Vector3d& point) {
   const Eigen::Vector2d on_ground = point.head<2>();
   return (on_ground - area.nearest_point(on_ground, 0)).norm();
@@ -129,6 +158,7 @@ std::vector<Problem> warnings_of_settings(const JobSpec& job) {
   check_shares(job, warnings);
   check_ground_truth(job, warnings);
   check_splits(job, warnings);
+  check_angles(job, warnings);
   return warnings;
 }
 

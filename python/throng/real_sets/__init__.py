@@ -8,13 +8,12 @@ The sets themselves are not part of throng; each has terms of its own. docs/trai
 
 from __future__ import annotations
 
-import difflib
 import logging
 import os
 from pathlib import Path
 from typing import Callable
 
-from .._words import counted
+from .._words import counted, known_names
 from ..errors import DatasetError
 from ._files import Skipped, Skips
 from ._images import RealImage, RealSet
@@ -45,10 +44,7 @@ def open_real_set(kind: str, folder: str | os.PathLike[str]) -> RealSet:
     frame. Errors: ValueError for another kind, DatasetError for a folder of another layout or with nothing that can be
     read.
     """
-    if kind not in REAL_SETS:
-        near = difflib.get_close_matches(kind, REAL_SETS, 1)
-        hint = f" (did you mean {near[0]!r}?)" if near else ""
-        raise ValueError(f"kind: found {kind!r}, expected one of {', '.join(sorted(REAL_SETS))}{hint}")
+    known_names("kind", kind, REAL_SETS)
     path = Path(folder)
     if not path.is_dir():
         raise DatasetError(f"{path}: found no such folder, expected a set in the layout of {kind}")

@@ -143,6 +143,16 @@ TEST(Board, AnEmptyImageHasNone) {
   }
 }
 
+// Windows, stones and people have corners in rows, too.
+TEST(Board, PicturesOfCrowdsHaveNone) {
+  for (const char* name : {"docs/weather.jpg", "docs/scenarios/concert.jpg", "docs/labels.jpg",
+                           "docs/scenarios/station.jpg"}) {
+    const auto found = find_board(images::read_gray_image(source_folder() / name), {}, name);
+    ASSERT_TRUE(std::holds_alternative<Problem>(found)) << name;
+    EXPECT_THAT(std::get<Problem>(found).text(), HasSubstr("no chessboard")) << name;
+  }
+}
+
 TEST(Board, CharucoBoardsAreFoundByTheirCornersNames) {
   Board board;
   board.kind = Board::Kind::charuco;
