@@ -64,7 +64,8 @@ void add_study(CLI::App& app) {
   command->add_option("-j,--threads", arguments->threads, "Parallel runs (0: one per core)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--runs", arguments->runs, "Limit the number of seeds per case (default: all)")
+  command
+      ->add_option("--runs", arguments->runs, "Limit the number of seeds per case (default: all)")
       ->check(CLI::PositiveNumber);
   command->callback([arguments] { run_study(*arguments); });
 }

@@ -109,7 +109,9 @@ void submit_study(const StudySubmission& arguments) {
   require_kind(DocumentKind::study, text, arguments.file);
   if (arguments.dry_run) {
     const json plan = api.post(fmt::format("{}?dry_run", kStudiesPath), text);
-    const auto size = [&](const char* list) { return static_cast<std::int64_t>(plan[list].size()); };
+    const auto size = [&](const char* list) {
+      return static_cast<std::int64_t>(plan[list].size());
+    };
     fmt::print("{}, {}, {} of each: {}\n", counted(size("cases"), "case"),
                counted(size("policies"), "policy", "policies"),
                counted(plan["runs"].get<std::int64_t>(), "run"),

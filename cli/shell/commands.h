@@ -24,7 +24,8 @@ void add_live_process(CLI::App& app);
 void add_people(CLI::App& app);
 void add_keys(CLI::App& app);
 void add_backup(CLI::App& app);  // backup, restore
-void add_remote_jobs(CLI::App& app);  // submit, jobs, watch, cancel, retry, remove, logs, fetch, drain
+void add_remote_jobs(
+    CLI::App& app);  // submit, jobs, watch, cancel, retry, remove, logs, fetch, drain
 void add_remote_studies(CLI::App& app);
 void add_scenarios(CLI::App& app);
 void add_scenario(CLI::App& app);  // check, plan, make, generate

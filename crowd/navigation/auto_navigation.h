@@ -21,8 +21,8 @@ namespace throng::crowd {
 
 /// The paths of all agents that navigate automatically, in all states. Agents of similar radius
 /// that avoid the same classes of obstacles share a mesh, which is created when the first of them
-/// enters such a state (usually when the scene has been loaded). The radius of a mesh is rounded up to
-/// centimeters and is at most 1.25 times that of its smallest agent.
+/// enters such a state (usually when the scene has been loaded). The radius of a mesh is rounded up
+/// to centimeters and is at most 1.25 times that of its smallest agent.
 ///
 /// An agent walks along the bends of the shortest path; in a crowd it keeps its distance from the
 /// wall of a corner until it has passed half of the turn. Twice per second it checks whether it can

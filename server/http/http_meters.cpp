@@ -17,8 +17,9 @@ void HttpMeters::note(std::string_view route, const std::string& method, int sta
     group = route.substr(1);
   }
   constexpr int kOk = 200;  // what the library sends where a handler sets no status
-  requests_.add(prometheus_labels(
-      {{"route", group}, {"method", method}, {"status", std::to_string(status < 0 ? kOk : status)}}));
+  requests_.add(prometheus_labels({{"route", group},
+                                   {"method", method},
+                                   {"status", std::to_string(status < 0 ? kOk : status)}}));
   seconds_.add(prometheus_labels({{"route", group}}), seconds);
 }
 

@@ -104,7 +104,7 @@ void import_characters(const std::vector<fs::path>& descriptions, const fs::path
   if (!options.with.empty()) {
     for (const Character& entry : base.index.characters) {
       copy_new_file(options.with / (entry.name + kMeshExtension),
-                staging.path() / (entry.name + kMeshExtension));
+                    staging.path() / (entry.name + kMeshExtension));
     }
     palettes.write(read_file(options.with / kPalettesFile));
   }

@@ -105,8 +105,8 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
     checked.warnings = recording_warnings(std::move(notes), recording, scenario);
   } else {
     const std::set<int> hazards(scenario.disaster_agents.begin(), scenario.disaster_agents.end());
-    const crowd::Simulation simulation =
-        sim::load_people(scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
+    const crowd::Simulation simulation = sim::load_people(
+        scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
     checked.expected.people = static_cast<std::int64_t>(simulation.agent_count() - hazards.size());
     crowd = starting_crowd(job, simulation, hazards);
   }

@@ -26,8 +26,8 @@ TEST(PathBelow, OthersAreRefusedWhereTheyStand) {
     require_path_below("../x\xFF", "manifest.json", "/files/3/path");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(),
-                ::testing::HasSubstr("manifest.json: /files/3/path: found \"../x\uFFFD\", expected"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(
+                                  "manifest.json: /files/3/path: found \"../x\uFFFD\", expected"));
   }
 }
 

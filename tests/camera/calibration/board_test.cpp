@@ -144,7 +144,7 @@ TEST(Board, AnEmptyImageHasNone) {
 }
 
 // Windows, stones and people have corners in rows, too.
-TEST(Board, PicturesOfCrowdsHaveNone) {
+TEST(Board, ImagesOfCrowdsHaveNone) {
   for (const char* name : {"docs/weather.jpg", "docs/scenarios/concert.jpg", "docs/labels.jpg",
                            "docs/scenarios/station.jpg"}) {
     const auto found = find_board(images::read_gray_image(source_folder() / name), {}, name);
