@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "base/error.h"
+#include "base/resource_exhaustion.h"
 #include "server/json_log.h"
 
 namespace throng::server {

@@ -219,13 +219,13 @@ class Backup {
 BackupSize back_up(const BackupOptions& options, const OnBackupBytes& on_bytes,
                    const std::stop_token& stop) {
   const fs::path& database = options.database.empty() ? options.data : options.database;
-  if (!fs::is_directory(options.data) || !fs::exists(database / "jobs.sqlite")) {
+  if (!is_there(options.data / ".") || !is_there(database / "jobs.sqlite")) {
     throw InputError(Problem{"throng backup", "", database.string(),
                              "the data folder of a service, with jobs.sqlite (or its --database)"});
   }
   require_apart(options.data, options.output, "--output");
   require_apart(database, options.output, "--output");
-  if (fs::exists(fs::symlink_status(options.output))) {
+  if (is_there(options.output)) {
     throw InputError(Problem{"--output", "", options.output.string() + ", which is there already",
                              "a folder to be made"});
   }

@@ -59,6 +59,15 @@ bool FileCopier::copy(const fs::path& from, const fs::path& to) {
   return true;
 }
 
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (!fs::status_known(status)) {
+    throw_environment_error("cannot read " + path.string(), error.value());
+  }
+  return fs::exists(status);
+}
+
 void require_apart(const fs::path& one, const fs::path& other, const char* option) {
   const fs::path a = fs::weakly_canonical(fs::absolute(one));
   const fs::path b = fs::weakly_canonical(fs::absolute(other));

@@ -4,11 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <stop_token>
 #include <utility>
-
-#include "server/backup/backup.h"
 
 namespace throng::server {
 
@@ -23,8 +22,11 @@ inline constexpr std::array kDatabases = {"keys.sqlite", "webhooks.sqlite", "job
 /// Copies files, also such as have several names, and counts bytes.
 class FileCopier {
  public:
-  /// `total_bytes` is for progress only.
-  FileCopier(std::int64_t total_bytes, const OnBackupBytes& on_bytes, const std::stop_token& stop)
+  /// Receives the bytes done and in total.
+  using OnBytes = std::function<void(std::int64_t, std::int64_t)>;
+
+  /// `total_bytes` is for progress only. The references must outlive this object.
+  FileCopier(std::int64_t total_bytes, const OnBytes& on_bytes, const std::stop_token& stop)
       : total_bytes_(total_bytes), on_bytes_(on_bytes), stop_(stop) {}
 
   /// Copies a regular file that is not reached by a link below a folder that is not trusted. Files
@@ -37,10 +39,13 @@ class FileCopier {
  private:
   std::int64_t total_bytes_;
   std::int64_t done_bytes_ = 0;
-  const OnBackupBytes& on_bytes_;
+  const OnBytes& on_bytes_;
   const std::stop_token& stop_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::filesystem::path> copies_;
 };
+
+/// Whether a file or folder exists. Throws EnvironmentError if that cannot be seen.
+bool is_there(const std::filesystem::path& path);
 
 /// Throws InputError if one of the folders lies in the other.
 void require_apart(const std::filesystem::path& one, const std::filesystem::path& other,

@@ -50,7 +50,7 @@ bool is_known(const std::string& path) {
 /// The list of hashes, which the note is about. Throws InputError.
 std::string read_sums(const fs::path& backup) {
   const std::string source = (backup / kBackupNote).string();
-  if (!exists_without_links(backup / kBackupNote)) {
+  if (!is_there(backup / kBackupNote)) {
     throw InputError(Problem{source, "", "no such file", "the folder of a complete backup"});
   }
   const nlohmann::json note = parse_json(read_file(backup / kBackupNote), source);
@@ -135,9 +135,11 @@ void require_hash(const fs::path& file, const SavedFile& saved) {
 /// A folder to be filled; emptied again unless keep() is called.
 class NewFolder {
  public:
-  explicit NewFolder(const fs::path& path) : path_(path), is_made_(!fs::exists(path)) {
-    if (!is_made_ && (!fs::is_directory(path) || !fs::is_empty(path))) {
-      throw InputError(Problem{"throng restore", "", path.string() + ", which is not empty",
+  explicit NewFolder(const fs::path& path) : path_(path), is_made_(!is_there(path)) {
+    const bool is_folder = is_made_ || fs::is_directory(path);
+    if (!is_folder || (!is_made_ && !fs::is_empty(path))) {
+      throw InputError(Problem{"throng restore", "",
+                               path.string() + (is_folder ? ", which is not empty" : ", a file"),
                                "a new or an empty folder"});
     }
     make_folders(path);

@@ -23,7 +23,7 @@ from doc_blocks import read_blocks, save_files  # noqa: E402
 from free_ports import free_port  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-LANGUAGES = {"sh", "text", "json", "xml", "python", "cpp", "cmake", "javascript"}
+LANGUAGES = {"sh", "text", "json", "xml", "python", "cpp", "cmake", "javascript", "yaml"}
 
 # Page, how the block begins -> why it does not run here.
 NOT_RUN = {

@@ -1,5 +1,6 @@
 """The client against the real service, also through a proxy that breaks connections."""
 import contextlib
+import datetime
 import hashlib
 import io
 import json
@@ -453,7 +454,9 @@ class WithService(unittest.TestCase):
         )
         admin = Client(self.client._http.url, made.stdout.strip())
         self.assertTrue(admin.may_submit())
-        friend = admin.create_key("friend", "read", max_jobs=2)
+        never = datetime.datetime(2100, 2, 3, tzinfo=datetime.timezone.utc)
+        friend = admin.create_key("friend", "read", max_jobs=2, expires_at=never)
+        self.assertEqual(friend["expires_at"], "2100-02-03T00:00:00.000Z")
         self.assertEqual(Client(self.client._http.url, friend["key"]).job(self.done["id"])["id"], self.done["id"])
         self.assertEqual([entry["name"] for entry in admin.keys()], ["reader", "admin", "friend"])
         admin.revoke_key(friend["id"])

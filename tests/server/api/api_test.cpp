@@ -120,6 +120,7 @@ TEST_F(ApiTest, ResultsOfAnUnfinishedJobAreAConflict) {
 TEST_F(ApiTest, ARunsFiguresAreThereOnceItWasMeasured) {
   Gate gate(executor);
   const std::string id = submit();
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
   const std::string run = "/v1/jobs/" + id + "/runs/0";
   expect_problem(get(run + "/metrics"), 409);
   expect_problem(get("/v1/jobs/" + id + "/runs/1/metrics"), 404);
