@@ -18,29 +18,12 @@ namespace throng::server {
 
 namespace {
 
-struct LogFile {
-  std::filesystem::path path;
-  std::FILE* stream = nullptr;  ///< open until the process ends
-};
+std::FILE* stream_of_file = nullptr;  // open until the process ends
+std::filesystem::path path_of_file;
 
-LogFile& log_file() {
-  static LogFile file;
-  return file;
-}
-
-int open_log(const std::filesystem::path& path) {
+int open_log() {
   constexpr mode_t kOwnerOnly = 0600;
-  return ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, kOwnerOnly);
-}
-
-std::FILE* opened(const std::filesystem::path& path) {
-  const int descriptor = open_log(path);
-  if (descriptor < 0) throw_environment_error("--log: cannot write to " + path.string(), errno);
-  std::FILE* stream = ::fdopen(descriptor, "a");
-  // Lines are written whole: what is in the buffer when the file is opened again is not split.
-  constexpr std::size_t kBufferBytes = 1 << 16;
-  std::setvbuf(stream, nullptr, _IOFBF, kBufferBytes);
-  return stream;
+  return ::open(path_of_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, kOwnerOnly);
 }
 
 /// A sink of spdlog for a stream that is not stdout.
@@ -49,11 +32,16 @@ using StreamSink = spdlog::sinks::stdout_sink_base<spdlog::details::console_mute
 }  // namespace
 
 void set_up_log(bool as_json, bool to_stdout, const std::filesystem::path& file) {
-  std::FILE* stream = to_stdout ? stdout : stderr;
   if (!file.empty()) {
-    log_file() = {std::filesystem::absolute(file), opened(file)};
-    stream = log_file().stream;
+    path_of_file = std::filesystem::absolute(file);
+    const int descriptor = open_log();
+    if (descriptor < 0) throw_environment_error("--log: cannot write to " + file.string(), errno);
+    stream_of_file = ::fdopen(descriptor, "a");
+    // What is in the buffer when the file is opened again are whole lines.
+    constexpr std::size_t kBufferBytes = 1 << 16;
+    std::setvbuf(stream_of_file, nullptr, _IOFBF, kBufferBytes);
   }
+  std::FILE* stream = stream_of_file != nullptr ? stream_of_file : to_stdout ? stdout : stderr;
   const auto logger =
       std::make_shared<spdlog::logger>("throng", std::make_shared<StreamSink>(stream));
   if (as_json) {
@@ -65,12 +53,11 @@ void set_up_log(bool as_json, bool to_stdout, const std::filesystem::path& file)
 }
 
 void reopen_log() {
-  const LogFile& file = log_file();
-  if (file.stream == nullptr) return;
-  const int descriptor = open_log(file.path);
+  if (stream_of_file == nullptr) return;
+  const int descriptor = open_log();
   // One call: a line is written either to the old file or to the new one.
-  if (descriptor < 0 || ::dup3(descriptor, ::fileno(file.stream), O_CLOEXEC) < 0) {
-    spdlog::warn("{}: not opened again: {}", file.path.string(), std::strerror(errno));
+  if (descriptor < 0 || ::dup3(descriptor, ::fileno(stream_of_file), O_CLOEXEC) < 0) {
+    spdlog::warn("{}: not opened again: {}", path_of_file.string(), std::strerror(errno));
   }
   if (descriptor >= 0) ::close(descriptor);
   spdlog::info("log opened again");

@@ -2,10 +2,9 @@
 
 #include <fmt/chrono.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <ctime>
+#include <regex>
 #include <string_view>
 
 #include "server/catalog/unix_time.h"
@@ -13,27 +12,6 @@
 namespace throng::server {
 
 namespace {
-
-/// The offset of a time zone by RFC 3339: "Z", "+02:00".
-std::optional<std::int64_t> zone_offset_s(std::string_view zone) {
-  if (zone == "Z" || zone == "z") return 0;
-  constexpr std::size_t kLength = 6;
-  if (zone.size() != kLength || (zone[0] != '+' && zone[0] != '-') || zone[3] != ':') {
-    return std::nullopt;
-  }
-  const auto two_digits = [&](std::size_t at) {
-    const bool are_digits = std::isdigit(static_cast<unsigned char>(zone[at])) != 0 &&
-                            std::isdigit(static_cast<unsigned char>(zone[at + 1])) != 0;
-    return are_digits ? 10 * (zone[at] - '0') + zone[at + 1] - '0' : 60;
-  };
-  constexpr int kMinutes = 60;
-  constexpr int kHours = 24;
-  const int hours = two_digits(1);
-  const int minutes = two_digits(4);
-  if (hours >= kHours || minutes >= kMinutes) return std::nullopt;
-  const std::int64_t offset_s = (hours * kMinutes + minutes) * kMinutes;
-  return zone[0] == '-' ? -offset_s : offset_s;
-}
 
 /// The duration "30d", "12h" or "2w"; at most five digits.
 std::optional<std::int64_t> duration_ms(const std::string& text) {
@@ -50,26 +28,20 @@ std::optional<std::int64_t> duration_ms(const std::string& text) {
 
 /// The Unix time of a date (its begin in UTC) or of a time by RFC 3339.
 std::optional<std::int64_t> time_ms(const std::string& text) {
-  constexpr std::size_t kDateLength = 10;
-  const bool is_date = text.size() == kDateLength;
-  std::tm time{};
-  const char* rest = ::strptime(text.c_str(), is_date ? "%Y-%m-%d" : "%Y-%m-%dT%H:%M:%S", &time);
-  if (rest == nullptr) return std::nullopt;
-  const std::time_t seconds = ::timegm(&time);
-  // The library takes "2027-2-30" for March 2.
-  const std::string read = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(seconds));
-  if (!text.starts_with(is_date ? read.substr(0, kDateLength) : read)) return std::nullopt;
+  static const std::regex kForm(
+      R"((\d{4}-\d\d-\d\d)(?:T(\d\d:\d\d:\d\d)(?:\.\d+)?(Z|[+-](?:0\d|1[0-4]):[0-5]\d))?)");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, kForm)) return std::nullopt;
+  const std::string time = parts[1].str() + (parts[2].matched ? "T" + parts[2].str() : "T00:00:00");
+  std::tm fields{};
+  if (::strptime(time.c_str(), "%Y-%m-%dT%H:%M:%S", &fields) == nullptr) return std::nullopt;
+  const std::int64_t seconds = ::timegm(&fields);
+  // The library takes February 30 for March 2.
+  if (fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(seconds)) != time) return std::nullopt;
+  std::tm zone{};
+  ::strptime(parts[3].str().c_str(), "%z", &zone);
   constexpr std::int64_t kMsPerS = 1000;
-  if (is_date) return seconds * kMsPerS;
-  std::string_view zone = rest;
-  if (zone.starts_with('.')) {  // parts of a second
-    const std::size_t end = std::min(zone.find_first_not_of("0123456789", 1), zone.size());
-    if (end == 1) return std::nullopt;
-    zone.remove_prefix(end);
-  }
-  const auto offset_s = zone_offset_s(zone);
-  if (!offset_s) return std::nullopt;
-  return (seconds - *offset_s) * kMsPerS;
+  return (seconds - zone.tm_gmtoff) * kMsPerS;
 }
 
 }  // namespace

@@ -157,7 +157,6 @@ class Backup {
     write_temporary_file(to_.parent_path() / kBackupSums, sums);
     write_temporary_file(to_.parent_path() / kBackupNote,
                          dump_text({{"format", kBackupFormat},
-                                    {"version", kBackupVersion},
                                     {"program", kGenerator},
                                     {"made_at", time_json(unix_ms_now())},
                                     {"files", size.files},

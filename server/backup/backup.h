@@ -3,7 +3,7 @@
 //
 //   BACKUP/data/         databases, jobs, calibrations, studies, uploads and the audit log
 //   BACKUP/SHA256SUMS    hashes of all files in it, as sha256sum reads them
-//   BACKUP/backup.json   format, version, and the hash of SHA256SUMS; written last
+//   BACKUP/backup.json   format with its version, and the hash of SHA256SUMS; written last
 #pragma once
 
 #include <cstdint>

@@ -11,8 +11,7 @@
 
 namespace throng::server {
 
-inline constexpr const char* kBackupFormat = "throng backup";
-inline constexpr int kBackupVersion = 1;
+inline constexpr const char* kBackupFormat = "throng backup 1";  ///< with its version
 inline constexpr const char* kBackupNote = "backup.json";
 inline constexpr const char* kBackupSums = "SHA256SUMS";
 inline constexpr const char* kBackupData = "data";

@@ -60,14 +60,9 @@ std::string read_sums(const fs::path& backup) {
                : std::string();
   };
   if (text("format") != kBackupFormat) {
-    throw InputError(Problem{source, "/format", fmt::format("\"{}\"", text("format")),
-                             fmt::format("\"{}\"", kBackupFormat)});
-  }
-  const nlohmann::json version = note.value("version", nlohmann::json());
-  if (version != kBackupVersion) {
-    throw InputError(Problem{source, "/version",
-                             fmt::format("{} of {}", version.dump(), text("program")),
-                             fmt::format("{}, which {} knows", kBackupVersion, kGenerator)});
+    throw InputError(Problem{source, "/format",
+                             fmt::format("\"{}\", by {}", text("format"), text("program")),
+                             fmt::format("\"{}\", which {} knows", kBackupFormat, kGenerator)});
   }
   std::string sums = read_file(backup / kBackupSums);
   if (sha256_hex(sums) != text("sums_sha256")) {
