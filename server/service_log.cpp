@@ -37,7 +37,7 @@ void set_up_log(bool as_json, bool to_stdout, const std::filesystem::path& file)
     const int descriptor = open_log();
     if (descriptor < 0) throw_environment_error("--log: cannot write to " + file.string(), errno);
     stream_of_file = ::fdopen(descriptor, "a");
-    // What is in the buffer when the file is opened again are whole lines.
+    // The buffer holds whole lines when the file is opened again.
     constexpr std::size_t kBufferBytes = 1 << 16;
     std::setvbuf(stream_of_file, nullptr, _IOFBF, kBufferBytes);
   }
