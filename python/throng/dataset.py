@@ -62,7 +62,9 @@ class Dataset(Sequence[Frame]):
 
     def _index(self, index: int) -> tuple[int, int]:
         if not -len(self) <= index < len(self):
-            raise IndexError(f"dataset[{index}]: found {counted(len(self), 'frame')}, expected an index below {len(self)}")
+            raise IndexError(
+                f"dataset[{index}]: found {counted(len(self), 'frame')}, expected an index below {len(self)}"
+            )
         return self._frames[index]
 
     def __iter__(self) -> Iterator[Frame]:
