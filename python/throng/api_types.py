@@ -191,9 +191,7 @@ class Event(TypedDict):
     seq: int
     job: str
     at: str
-    type: Literal[
-        "submitted", "started", "resumed", "stage", "succeeded", "failed", "cancelled", "retried", "changed", "removed"
-    ]
+    type: Literal["submitted", "started", "resumed", "stage", "succeeded", "failed", "cancelled", "retried", "changed", "removed"]
     data: dict[str, Any]
 
 

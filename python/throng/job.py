@@ -12,44 +12,10 @@ from typing import Any, Literal, Mapping, Sequence
 from ._job_base import Distribution, Part, choice, log_uniform, normal, uniform
 
 __all__ = [
-    "Aim",
-    "Appearance",
-    "Area",
-    "Battery",
-    "Camera",
-    "Capture",
-    "Classes",
-    "Columns",
-    "Counts",
-    "Crowd",
-    "Density",
-    "Distortion",
-    "Distribution",
-    "Drone",
-    "Environment",
-    "Fields",
-    "Filters",
-    "Gimbal",
-    "Guidance",
-    "Image",
-    "Job",
-    "Line",
-    "Mount",
-    "Outputs",
-    "PerFrame",
-    "Perception",
-    "Props",
-    "Recorded",
-    "ScenarioShare",
-    "Sensor",
-    "Splits",
-    "Webdataset",
-    "Wind",
-    "Zone",
-    "choice",
-    "log_uniform",
-    "normal",
-    "uniform",
+    "Aim", "Appearance", "Area", "Battery", "Camera", "Capture", "Classes", "Columns", "Counts", "Crowd", "Density",
+    "Distortion", "Distribution", "Drone", "Environment", "Fields", "Filters", "Gimbal", "Guidance", "Image", "Job",
+    "Line", "Mount", "Outputs", "PerFrame", "Perception", "Props", "Recorded", "ScenarioShare", "Sensor", "Splits",
+    "Webdataset", "Wind", "Zone", "choice", "log_uniform", "normal", "uniform",
 ]
 
 
@@ -185,37 +151,7 @@ class Outputs(Part):
     _: KW_ONLY
     image: Image | None = None
     """Storage of frames."""
-    annotations: Sequence[
-        Literal[
-            "coco",
-            "keypoints",
-            "skeletons",
-            "actions",
-            "amodal",
-            "vehicles",
-            "difficulty",
-            "heads",
-            "occluders",
-            "density",
-            "exits",
-            "hazards",
-            "fields",
-            "counts",
-            "trajectories",
-            "events",
-            "depth",
-            "instances",
-            "parts",
-            "normals",
-            "flow",
-            "flow_backward",
-            "flow_occlusion",
-            "scene_flow",
-            "hazard_opacity",
-            "semantic",
-            "sensors",
-        ]
-    ] | None = None
+    annotations: Sequence[Literal["coco", "keypoints", "skeletons", "actions", "amodal", "vehicles", "difficulty", "heads", "occluders", "density", "exits", "hazards", "fields", "counts", "trajectories", "events", "depth", "instances", "parts", "normals", "flow", "flow_backward", "flow_occlusion", "scene_flow", "hazard_opacity", "semantic", "sensors"]] | None = None
     """Which ground truth is written: coco (boxes, masks, cameras, activity and appearance of people), keypoints
     (COCO's 17 of each person in the image and in the world, with coco), skeletons (33 joints of each person,
     turns of 21 bones and gaze, with coco), actions (of each person over the run, with times, and in images;
@@ -462,9 +398,7 @@ class Camera(Part):
     size may be a distribution, sampled again for every run."""
 
     _: KW_ONLY
-    preset: Literal[
-        "dji_phantom_4_pro", "dji_phantom_4_pro_full_hd", "dji_phantom_4", "px4_typhoon_h480", "airsim"
-    ] | None = None
+    preset: Literal["dji_phantom_4_pro", "dji_phantom_4_pro_full_hd", "dji_phantom_4", "px4_typhoon_h480", "airsim"] | None = None
     """A known camera, whose image size and field of view are defaults of the fields below (spec/job/cameras.json,
     with sources)."""
     calibration: str | Mapping[str, Any] | None = None
@@ -535,9 +469,7 @@ class Guidance(Part):
     """The policy that flies the drone."""
 
     _: KW_ONLY
-    policy: Literal[
-        "hover", "waypoints", "orbit", "survey", "follow_density", "zigzag", "pilot_log", "balance", "signage"
-    ] | None = None
+    policy: Literal["hover", "waypoints", "orbit", "survey", "follow_density", "zigzag", "pilot_log", "balance", "signage"] | None = None
     """hover: stay at the start; waypoints: fly from point to point and hover at the last; orbit: circle a point and
     look at it; survey: lanes over an area; follow_density: keep the camera on the densest crowd; zigzag: sweep
     and lead as a human pilot; pilot_log: repeat recorded set-points; balance: lead people from long queues to
