@@ -220,7 +220,10 @@ class Messages(unittest.TestCase):
 
     def test_limits_are_named(self):
         self.run_job("/capture/to_s: found 5, expected at least from_s, which is 10", capture={"from_s": 10, "to_s": 5})
-        self.run_job("/crowd/agents: found 5000, expected 1 to 260, all who are in the scenario at the start", crowd={"agents": 5000})
+        self.run_job(
+            "/crowd/agents: found 5000, expected 1 to 260, all who are in the scenario at the start",
+            crowd={"agents": 5000},
+        )
 
     def test_another_kind_of_file_is_recognized(self):
         place = self.folder / "yard.blueprint.json"
