@@ -282,10 +282,8 @@ class Messages(unittest.TestCase):
             fine = {**radians, "camera": {"pitch_deg": pitch}}
             self.assertNotIn("radians", throng("check", self.job(drones=[fine])).stdout, pitch)
         self.refused("1 to ", "check", self.job(crowd={"agents": 1_000_000}))
-        arriving = json.loads(self.job(scenario="concert/everyday", crowd={"agents": 2000}).read_text())
-        arriving["capture"] = {"to_s": 1, "rate_hz": 1}
-        (self.folder / "my.job.json").write_text(json.dumps(arriving))
-        said = throng("check", self.folder / "my.job.json").stdout
+        capture = {"to_s": 1, "rate_hz": 1}
+        said = throng("check", self.job(scenario="concert/everyday", crowd={"agents": 2000}, capture=capture)).stdout
         self.assertRegex(said, r"people +1\d+ of 2000, as the others come after the end")
 
     def test_inputs_are_not_written_over(self):
