@@ -44,6 +44,7 @@ constexpr std::array<SunWord, 6> kSunWords = {{{"midnight", 0, 0, 0},
                                                {"dusk", 1, kTwilightDeg, 0}}};
 std::vector<std::string_view> sun_names() {
   std::vector<std::string_view> names;
+  names.reserve(kSunWords.size());
   for (const SunWord& word : kSunWords) names.push_back(word.word);
   return names;
 }
