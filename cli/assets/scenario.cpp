@@ -1,5 +1,6 @@
 // throng scenario: checking and drawing places.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -172,7 +173,8 @@ void generate(const GenerateArguments& arguments) {
 void add_generate(CLI::App& scenario) {
   auto* command = scenario.add_subcommand("generate", "Generate scenarios from a seed");
   const auto arguments = std::make_shared<GenerateArguments>();
-  command->add_option("--kind", arguments->kind, "plaza, street, campus or block");
+  command->add_option("--kind", arguments->kind, "Kind of place")
+      ->type_name(fmt::format("TEXT:{{{}}}", fmt::join(scenarios::kPlaceKinds, ",")));
   command->add_option("--seed", arguments->seed, "Seed of the first scenario");
   command->add_option("--count", arguments->count, "Number of scenarios, with consecutive seeds")
       ->check(CLI::Range(1, 100'000));

@@ -1,5 +1,7 @@
 #include "cli/crowd/crowd_options.h"
 
+#include "crowd/model.h"
+
 namespace throng::cli {
 
 namespace {
@@ -16,7 +18,8 @@ void add_run_options(CLI::App& command, CrowdArguments& arguments) {
   command.add_option("-s,--scene", arguments.scene_file, "Scene file instead of the project's");
   command.add_option("-b,--behavior", arguments.behavior_file,
                      "Behavior file instead of the project's");
-  command.add_option("-m,--model", arguments.model, "Pedestrian model instead of the project's");
+  command.add_option("-m,--model", arguments.model, "Pedestrian model instead of the project's")
+      ->type_name(model_words());
   command
       .add_option("-d,--duration", arguments.duration_s,
                   "Max simulated time in s, instead of the project's")
@@ -94,6 +97,14 @@ void add_ignored_options(CLI::App& command, CrowdArguments& arguments) {
 }
 
 }  // namespace
+
+std::string model_words() {
+  std::string words;
+  for (const crowd::ModelEntry& model : crowd::models()) {
+    words += (words.empty() ? "" : ",") + std::string(model.name);
+  }
+  return "TEXT:{" + words + "}";
+}
 
 void add_crowd_options(CLI::App& command, CrowdArguments& arguments) {
   add_run_options(command, arguments);

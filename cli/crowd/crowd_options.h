@@ -37,6 +37,9 @@ struct CrowdArguments {
   bool ignored_verbose = false;
 };
 
+/// The type of an option that names pedestrian models: TEXT:{ttc,orca,...}.
+std::string model_words();
+
 void add_crowd_options(CLI::App& command, CrowdArguments& arguments);
 
 /// Reads the project and applies the command line's overrides. Throws InputError.

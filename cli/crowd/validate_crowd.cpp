@@ -12,6 +12,7 @@
 #include "base/files/files.h"
 #include "base/graphics/drawing/drawing.h"
 #include "base/text/suggest.h"
+#include "cli/crowd/crowd_options.h"
 #include "cli/shell/commands.h"
 #include "cli/shell/file_kind.h"
 #include "cli/shell/interrupt.h"
@@ -134,6 +135,7 @@ void add_validate_crowd(CLI::App& app) {
   command
       ->add_option("-m,--models", arguments->models,
                    "Only these models (a,b,...); else all but dummy")
+      ->type_name(model_words())
       ->delimiter(',');
   auto* tests =
       command->add_option("--tests", arguments->tests, "Only these tests (rimea_1,nist_2_8,...)")

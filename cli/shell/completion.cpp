@@ -1,9 +1,12 @@
 // throng completion: scripts for bash, zsh and fish, made of the commands and options themselves.
 // Each script finds the command that the words before the cursor name, up to the first word that is
-// none, and offers what may follow it.
+// none, and offers what may follow it: subcommands, options, and the values of an option.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -35,6 +38,65 @@ std::vector<Candidate> candidates_after(const CLI::App& command) {
   return found;
 }
 
+/// Values that the program lists when the user asks for them.
+struct ListedValues {
+  std::string_view command;
+  std::string_view option;  ///< long name, or empty for the positional argument
+  std::string_view lister;  ///< a command that prints a value in the first column of each line
+};
+
+constexpr std::array<ListedValues, 5> kListedValues = {{
+    {"throng export", "formats", "throng export --list"},
+    {"throng scenario check", "", "throng scenarios"},
+    {"throng scenario plan", "", "throng scenarios"},
+    {"throng airframes", "", "throng airframes | tail -n +2"},
+    {"throng schema", "", "throng schema"},
+}};
+
+/// A command that prints the values of an option, a value per line, in any of the shells; empty if
+/// the values are no known words.
+std::string value_lister(const std::string& words, const CLI::Option& option) {
+  for (const ListedValues& listed : kListedValues) {
+    const bool is_it = option.get_positional() ? listed.option.empty()
+                                               : option.check_lname(std::string(listed.option));
+    if (listed.command == words && is_it) return fmt::format("{} | cut -d' ' -f1", listed.lister);
+  }
+  // An option with a list of words has a type such as TEXT:{local,slurm}.
+  const std::string type = option.get_type_name();
+  const std::size_t begin = type.find('{');
+  if (begin == std::string::npos) return "";
+  std::string list = type.substr(begin + 1, type.find('}') - begin - 1);
+  std::replace(list.begin(), list.end(), ',', ' ');
+  return "printf '%s\\n' " + list;
+}
+
+/// The names of an option as they are typed ("-m", "--models"); none for a positional argument.
+std::vector<std::string> typed_names(const CLI::Option& option) {
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// Cases of bash and zsh that print the values of "COMMAND OPTION", or of "COMMAND " for its
+/// positional argument.
+std::string value_cases(const CLI::App& app) {
+  std::string cases;
+  for_each_command(app, "throng", [&](const CLI::App& command, const std::string& words) {
+    for (const CLI::Option* option : command.get_options()) {
+      const std::string lister = value_lister(words, *option);
+      if (lister.empty()) continue;
+      std::vector<std::string> patterns;
+      for (const std::string& name : typed_names(*option)) {
+        patterns.push_back(fmt::format("\"{} {}\"", words, name));
+      }
+      if (patterns.empty()) patterns.push_back(fmt::format("\"{} \"", words));
+      cases += fmt::format("    {}) {} ;;\n", fmt::join(patterns, " | "), lister);
+    }
+  });
+  return cases;
+}
+
 std::string replaced(std::string_view text, char wanted, std::string_view with) {
   std::string out;
   for (const char c : text) {
@@ -56,26 +118,41 @@ std::string bash_completion(const CLI::App& app) {
     }
     cases += fmt::format("    \"{}\") words=\"{}\" ;;\n", words, following);
   });
-  return R"(# Completion of throng for bash; made by `throng completion bash`.
+  return R"sh(# Completion of throng for bash; made by `throng completion bash`.
 _throng_words() {
   case "$1" in
-)" + cases +
-         R"(    *) return 1 ;;
+)sh" + cases +
+         R"sh(    *) return 1 ;;
+  esac
+}
+
+_throng_values() {
+  case "$1 $2" in
+)sh" + value_cases(app) +
+         R"sh(    *) return 1 ;;
   esac
 }
 
 _throng() {
-  local words command="throng" word
+  local words command="throng" word before=""
+  local last="${COMP_WORDS[COMP_CWORD]}" previous="${COMP_WORDS[COMP_CWORD-1]}"
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     _throng_words "$command $word" || break
     command="$command $word"
   done
-  _throng_words "$command"
-  mapfile -t COMPREPLY < <(compgen -W "$words" -- "${COMP_WORDS[COMP_CWORD]}")
+  [ "$previous" != "=" ] || previous="${COMP_WORDS[COMP_CWORD-2]}"  # --option=value
+  [ "$last" != "=" ] || last=""
+  if [[ "$previous" == -* ]] && words="$(_throng_values "$command" "$previous" 2>/dev/null)"; then
+    [[ "$last" != *,* ]] || before="${last%,*},"  # of a list, the last value
+  else
+    _throng_words "$command"
+    [[ "$last" == -* ]] || words+=" $(_throng_values "$command" "" 2>/dev/null)"
+  fi
+  mapfile -t COMPREPLY < <(compgen -P "$before" -W "$words" -- "${last#"$before"}")
 }
 
 complete -o default -F _throng throng
-)";
+)sh";
 }
 
 /// Text within single quotes of zsh.
@@ -93,30 +170,43 @@ std::string zsh_completion(const CLI::App& app) {
     }
     cases += fmt::format("    '{}') candidates=({}\n    ) ;;\n", words, following);
   });
-  return R"(#compdef throng
+  return R"sh(#compdef throng
 # Completion of throng for zsh; made by `throng completion zsh`.
 _throng_candidates() {
   case "$1" in
-)" + cases +
-         R"(    *) return 1 ;;
+)sh" + cases +
+         R"sh(    *) return 1 ;;
+  esac
+}
+
+_throng_values() {
+  case "$1 $2" in
+)sh" + value_cases(app) +
+         R"sh(    *) return 1 ;;
   esac
 }
 
 _throng() {
-  local command="throng" word
+  local command="throng" word values previous="${words[CURRENT-1]}"
   local -a candidates
   for word in "${(@)words[2,CURRENT-1]}"; do
     _throng_candidates "$command $word" || break
     command="$command $word"
   done
+  if [[ "$previous" == -* ]] && values="$(_throng_values "$command" "$previous" 2>/dev/null)"; then
+    compset -P '*,'  # of a list, the last value
+    compadd -- ${(f)values}
+    return
+  fi
   _throng_candidates "$command"
+  candidates+=(${(f)"$(_throng_values "$command" "" 2>/dev/null)"})
   _describe -o throng candidates
   _files
 }
 
 # Run by the completion system where it lies in a folder of fpath, else read by `source`.
 if [ "${funcstack[1]}" = _throng ]; then _throng "$@"; else compdef _throng throng; fi
-)";
+)sh";
 }
 
 /// Text within single quotes of fish.
@@ -136,6 +226,19 @@ std::string fish_completion(const CLI::App& app) {
                            is_option ? "-l" : "-f -a",
                            fish_quoted(is_option ? candidate.word.substr(2) : candidate.word),
                            fish_quoted(candidate.description));
+    }
+    for (const CLI::Option* option : command.get_options()) {
+      const std::string lister = value_lister(words, *option);
+      if (lister.empty()) continue;
+      std::string names;
+      for (const std::string& name : option->get_snames()) names += " -s " + name;
+      for (const std::string& name : option->get_lnames()) names += " -l " + name;
+      const bool is_list = option->get_delimiter() == ',';
+      lines += fmt::format(
+          "complete -c throng -n {}{}{} -a {}\n",
+          fish_quoted("test (__throng_command) = \"" + words + "\""), names,
+          names.empty() ? "" : " -x",
+          fish_quoted(is_list ? "(__fish_append , (" + lister + "))" : "(" + lister + ")"));
     }
   });
   return R"(# Completion of throng for fish; made by `throng completion fish`.

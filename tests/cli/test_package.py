@@ -12,6 +12,10 @@ BUILD = THRONG.parents[1]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
+# The scripts ask the program for names.
+os.environ["PATH"] = f"{THRONG.parent}:{os.environ['PATH']}"
+
+
 def run(*command, **more):
     done = subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=300, **more)
     if done.returncode != 0:
@@ -47,6 +51,14 @@ class Package(unittest.TestCase):
         self.assertIn("--output", self.complete("run", "job.json", "--o"))
         self.assertNotIn("confined", self.complete(""))
         self.assertEqual(set(self.complete("")) - {"--help", "--version"}, set(commands()))
+        for command in (("run", "--executor"), ("run", "job.json", "--executor"), ("run", "--executor", "=")):
+            self.assertEqual(self.complete(*command, "")[-2:], ["local", "slurm"], command)
+        self.assertEqual(self.complete("export", "out", "--formats", "yolo-d"), ["yolo-detect"])
+        self.assertEqual(self.complete("export", "out", "--formats", "mot,kit"), ["mot,kitti"])
+        self.assertEqual(self.complete("validate-crowd", "-m", "o"), ["orca"])
+        self.assertEqual(self.complete("scenario", "plan", "city_square/ev"), ["city_square/everyday"])
+        self.assertEqual(self.complete("airframes", "craz"), ["crazyflie"])
+        self.assertEqual(self.complete("scenario", "generate", "--kind", "pl"), ["plaza"])
 
     def test_fish_completion(self):
         script = self.folder / "throng.fish"
@@ -62,6 +74,12 @@ class Package(unittest.TestCase):
         self.assertIn("--output", complete("throng run job.json --o"))
         self.assertTrue(all(complete("throng scenario ").values()))
         self.assertEqual(set(complete("throng ")), set(commands()))
+        self.assertEqual(list(complete("throng run job.json --executor ")), ["local", "slurm"])
+        self.assertEqual(list(complete("throng export out --formats yolo-d")), ["yolo-detect"])
+        self.assertEqual(list(complete("throng export out --formats mot,kit")), ["mot,kitti"])
+        self.assertEqual(list(complete("throng validate-crowd -m o")), ["orca"])
+        self.assertEqual(list(complete("throng scenario plan city_square/ev")), ["city_square/everyday"])
+        self.assertEqual(list(complete("throng airframes craz")), ["crazyflie"])
 
     def test_zsh_completion(self):
         script = self.folder / "_throng"
@@ -71,13 +89,17 @@ class Package(unittest.TestCase):
             """Words that the function offers, with their descriptions; zsh itself sorts out those that fit."""
             line = " ".join(f"'{word}'" for word in ("throng", *words))
             printing = "compdef() { :; }; _files() { :; }; _describe() { print -rl -- ${(P)3}; }"
+            printing += "; compset() { :; }; compadd() { shift; print -rl -- $@; }"
             output = run(
                 "zsh", "-f", "-c", f"{printing}; source {script}; words=({line}) CURRENT={len(words) + 1}; _throng"
             )
-            return dict(re.split(r"(?<!\\):", line, maxsplit=1) for line in output.splitlines())
+            return dict((re.split(r"(?<!\\):", line, maxsplit=1) + [""])[:2] for line in output.splitlines())
 
         self.assertEqual(set(complete("")) - {"--help", "--version"}, set(commands()))
         self.assertIn("check", complete("scenario", ""))
+        self.assertEqual(list(complete("run", "--executor", "")), ["local", "slurm"])
+        self.assertIn("yolo-detect", complete("export", "out", "--formats", ""))
+        self.assertIn("city_square/everyday", complete("scenario", "plan", ""))
         self.assertIn("--output", complete("run", "job.json", "--o"))
         self.assertTrue(all(complete("scenario", "").values()))
 
