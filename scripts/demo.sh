@@ -60,13 +60,7 @@ tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 /usr/bin/python3 "$root/scripts/show_dataset.py" "$out/dataset"
 
 say "drawing a frame with its labels, and the report"
-PYTHONPATH="$root/python" MPLBACKEND=Agg /usr/bin/python3 - "$out" <<'PYTHON'
-import sys
-import throng
-
-frames = [frame for frame in throng.Dataset(f"{sys.argv[1]}/dataset") if frame.camera_id == "overview"]
-throng.show_labels(frames[len(frames) // 3]).savefig(f"{sys.argv[1]}/labels.jpg", dpi=128, pil_kwargs={"quality": 90})
-PYTHON
+"$root/scripts/sheets/labels_sheet.py" "$out/dataset" "$out/labels.jpg"
 THRONG_URL="$url" "$root/build/release/cli/throng" report "$job" -o "$out/report.html"
 
 if [ -n "$keep" ]; then

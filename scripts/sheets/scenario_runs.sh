@@ -20,21 +20,19 @@ job() {
       | .outputs.previews = 1' "$root/scenarios/$1/$file.job.json"
 }
 
-printf '| scenario | variant | people | turned back at an exit | out after 60 s | simulated and rendered in |\n|---|---|---|---|---|---|\n'
+printf '| scenario | variant | people | turned back at an exit | out after 60 s |\n|---|---|---|---|---|\n'
 for scenario in "${scenarios[@]}"; do
   for variant in everyday emergency; do
     out="$folder/${scenario}_$variant"
     if [ ! -e "$out/dataset/manifest.json" ]; then
       job "$scenario" "$variant" > "$out.job.json"
-      start=$SECONDS
       "$throng" run "$out.job.json" -o "$out" > "$out.log" 2>&1 || { tail -3 "$out.log"; exit 1; }
-      echo $((SECONDS - start)) > "$out.seconds"
       "$throng" validate "$out/dataset" > "$out.validation"
     fi
-    jq -r --arg scenario "$scenario" --arg variant "$variant" --arg seconds "$(cat "$out.seconds")" \
+    jq -r --arg scenario "$scenario" --arg variant "$variant" \
       '.runs[0] | .people_counts as $counts
         | "| \($scenario) | \($variant) | \(.people - $counts.turned_back - $counts.never_inside) | \($counts.turned_back) | \(
-            $counts.left_by_no_exit + ([$counts.left_by_exit[].people] | add)) | \($seconds) s |"' \
+            $counts.left_by_no_exit + ([$counts.left_by_exit[].people] | add)) |"' \
       "$out/dataset/metrics.json"
   done
 done
