@@ -120,8 +120,7 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
 }
 
 std::string read_job_text(const std::string& path) {
-  const std::string text = read_input_file(path, "a job file");
-  require_kind(DocumentKind::job, text, path);
+  const std::string text = read_job_document(path);
   // A calibration is a file, named from where the job's file is.
   const auto camera_in = [&](const std::string& name) {
     const std::filesystem::path file = std::filesystem::path(path).parent_path() / name;

@@ -169,8 +169,7 @@ struct SubmitArguments {
 
 void submit(const SubmitArguments& arguments) {
   ApiClient api;
-  const std::string text = read_input_file(arguments.job_file, "a job file");
-  require_kind(DocumentKind::job, text, arguments.job_file);
+  const std::string text = read_job_document(arguments.job_file);
   std::string query = fmt::format("?priority={}", arguments.priority);
   for (const std::string& label : arguments.labels) query += "&label=" + percent_encoded(label);
   const auto post = [&](const std::string& path,

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/json/json_text.h"
+#include "cli/shell/input_file.h"
 #include "world/scenario.h"
+#include "world/scenario_id.h"
 
 namespace throng::cli {
 
@@ -49,6 +52,17 @@ DocumentKind document_kind(std::string_view text, const std::string& file) {
   }
   return has_any({"capture", "drones", "runs", "outputs"}) ? DocumentKind::job
                                                            : DocumentKind::unknown;
+}
+
+std::string read_job_document(const std::string& file) {
+  std::string expected = "a job file";
+  if (!std::filesystem::exists(file)) {
+    const auto id = world::scenario_id_in(world::scenarios_folder(), file);
+    if (id) expected += fmt::format(R"(, which may be {{"scenario": "{}"}})", *id);
+  }
+  std::string text = read_input_file(file, expected);
+  require_kind(DocumentKind::job, text, file);
+  return text;
 }
 
 void require_scenario(std::string_view text, const std::string& file) {

@@ -18,6 +18,10 @@ DocumentKind document_kind(std::string_view text, const std::string& file);
 /// kind.
 void require_kind(DocumentKind expected, std::string_view text, const std::string& file);
 
+/// The text of a job file that a user named. Throws InputError if it is missing or of another kind;
+/// the message tells how a job names a scenario if that is what was named.
+std::string read_job_document(const std::string& file);
+
 /// As require_kind() for scenarios; accepts blueprints, too.
 void require_scenario(std::string_view text, const std::string& file);
 

@@ -274,11 +274,20 @@ class Messages(unittest.TestCase):
         done = throng("check", job)
         self.assertEqual((done.returncode, done.stderr.count("expected")), (2, 1), done.stderr)
 
+    def test_a_scenario_in_place_of_a_job_is_told_how_a_job_names_it(self):
+        for name in ("city_square/everyday", "scenarios/city_square/everyday"):
+            for command in (("check",), ("run", "-o", "x")):
+                self.refused('a job file, which may be {"scenario": "city_square/everyday"}', *command, name)
+
     def test_what_may_be_no_mistake_is_asked(self):
         radians = {"id": "d", "start": [0, 0, 20], "camera": {"pitch_deg": -1.57}}
         said = throng("check", self.job(drones=[radians])).stdout
         self.assertIn("/drones/0/camera/pitch_deg: found -1.57 degrees, expected -90 if it is meant in radians", said)
-        for pitch in (-1.5, -30, -2, -0.4):
+        for pitch, in_degrees in ((-0.7, -40), (-1.2, -69)):
+            asked = {**radians, "camera": {"pitch_deg": pitch}}
+            said = throng("check", self.job(drones=[asked])).stdout
+            self.assertIn(f"found {pitch} degrees, expected {in_degrees} if it is meant in radians", said)
+        for pitch in (-1.75, -30, -2, -1, -0.1, 0.5):
             fine = {**radians, "camera": {"pitch_deg": pitch}}
             self.assertNotIn("radians", throng("check", self.job(drones=[fine])).stdout, pitch)
         self.refused("1 to ", "check", self.job(crowd={"agents": 1_000_000}))

@@ -88,13 +88,15 @@ void check_splits(const JobSpec& job, std::vector<Problem>& warnings) {
   }
 }
 
-/// Whether an angle is more likely a usual one in radians, such as -1.57, than in degrees.
-bool may_be_radians(double degrees) {
+/// Whether an angle is more likely one in radians than in degrees: a usual one, such as -1.57, or a
+/// pitch that no one gives in degrees, since it looks to the horizon.
+bool may_be_radians(std::string_view name, double degrees) {
   constexpr double kPart = std::numbers::pi / 12;
   constexpr double kRounding = 0.003;
-  const double parts = std::round(degrees / kPart);
-  return parts != 0 && std::abs(degrees) < 2 * std::numbers::pi + kRounding &&
-         std::abs(degrees - parts * kPart) < kRounding && degrees != std::round(degrees);
+  if (degrees == std::round(degrees)) return false;
+  if (name == "pitch_deg" && degrees < -0.2) return degrees > -std::numbers::pi / 2 - kRounding;
+  return std::abs(degrees) < 2 * std::numbers::pi + kRounding &&
+         std::abs(degrees - std::round(degrees / kPart) * kPart) < kRounding;
 }
 
 void check_angles(const JobSpec& job, std::vector<Problem>& warnings) {
@@ -106,7 +108,7 @@ void check_angles(const JobSpec& job, std::vector<Problem>& warnings) {
       const nlohmann::json::json_pointer place(pointer);
       if (!fields.contains(place) || !fields.at(place).is_number()) continue;
       const auto degrees = fields.at(place).get<double>();
-      if (!may_be_radians(degrees)) continue;
+      if (!may_be_radians(angle, degrees)) continue;
       warnings.push_back(
           {"", pointer, fmt::format("{:g} degrees", degrees),
            fmt::format("{:.0f} if it is meant in radians", degrees * 180 / std::numbers::pi)});
