@@ -23,6 +23,7 @@ std::string suggest_remedy(const Problem& problem, bool of_blueprint) {
     return "put the file beside the scenario, or correct its name";
   }
   if (problem.where.starts_with("line")) {
+    if (problem.source.ends_with(".json")) return "correct the text there, which is no JSON";
     return "correct this element: docs/reference/crowd_vocabulary.md lists what each may say";
   }
   return fmt::format("correct this field: docs/reference/{}.md lists what each may say",

@@ -94,6 +94,9 @@ TEST_F(CheckBlueprint, SendsReadersOfMistakesToItsPage) {
   const std::vector<Finding> found = check_files(folder.write("a.blueprint.json", square.dump()));
   ASSERT_FALSE(found.empty());
   EXPECT_THAT(found[0].text(), HasSubstr("unknown field \"crowd\""));
+  const auto broken = check_files(folder.write("b.blueprint.json", "{\"name\": \"Yard\",}"));
+  ASSERT_FALSE(broken.empty());
+  EXPECT_THAT(broken[0].remedy, HasSubstr("no JSON"));
 }
 
 TEST_F(CheckBlueprint, NamesFilesThatNoJobCanName) {
