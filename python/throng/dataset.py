@@ -57,7 +57,9 @@ class Dataset(Sequence[Frame]):
             return self._view(self._frames[index])
         if isinstance(index, (list, np.ndarray)):
             return self._view([self._index(int(i)) for i in index])
-        source, image = self._index(index)
+        if not isinstance(index, (int, np.integer)):
+            raise TypeError(f"dataset[{index!r}]: expected the index of a frame, a slice or a list of indices")
+        source, image = self._index(int(index))
         return Frame(self._sources[source], self._sources[source].labels.images[image], self._keep)
 
     def _index(self, index: int) -> tuple[int, int]:

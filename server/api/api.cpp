@@ -374,6 +374,7 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
               1, caller.max_bytes - service.live().disk_bytes_of(caller.key_id));
         }
         key = caller.key_id;
+        if (entry.scope != Scope::anybody) require_known_parameters(request, entry);
         if (begins_work(entry) && service.drain().has_begun()) {
           response.set_header("Retry-After", "60");
           throw HttpError{503, kDraining};

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json/json_text.h"
+#include "base/text/suggest.h"
+#include "base/text/words.h"
 #include "jobs/queue/store/job_id.h"
 #include "server/api/list_answer.h"
 #include "server/catalog/api_json.h"
@@ -55,10 +57,29 @@ int requested_limit(const Request& request) {
   return static_cast<int>(requested_number(request, "limit", 1, kMaxPageSize, kUsual));
 }
 
+void require_known_parameters(const Request& request, const Route& route) {
+  if (request.target.find('?') == std::string::npos) return;  // a form's fields are no query
+  static const json kPaths = parse_json(embedded::kOpenApi, "openapi.json", {}).at("paths");
+  const std::string method = lower_case(to_string(route.method));
+  const json& operation = kPaths.at(route.path).at(method);
+  std::vector<std::string_view> known;
+  for (const json& parameter : operation.value("parameters", json::array())) {
+    if (parameter.at("in") == "query")
+      known.push_back(parameter.at("name").get_ref<const std::string&>());
+  }
+  for (const auto& [name, value] : request.params) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw HttpError{
+        400, "the query is wrong", {unknown_name("", "?" + name, "parameter", name, known)}};
+  }
+}
+
 void require_json(const Request& request) {
   const std::string type = request.get_header_value("Content-Type");
   if (type.substr(0, type.find(';')) != "application/json") {
-    throw HttpError{415, "this is sent with Content-Type: application/json"};
+    throw HttpError{
+        415, fmt::format("found a body {}, expected Content-Type: application/json",
+                         type.empty() ? "without a Content-Type" : "of Content-Type " + type)};
   }
 }
 

@@ -10,9 +10,14 @@
 #include <string_view>
 
 #include "server/api/request_context.h"
+#include "server/api/routes.h"
 #include "server/catalog/viewer.h"
 #include "server/http/http_error.h"
 #include "server/http/http_fwd.h"
+
+namespace throng::embedded {
+extern const std::string_view kOpenApi;  ///< server/openapi.json
+}
 
 namespace throng::server {
 
@@ -32,6 +37,10 @@ bool is_asked(const httplib::Request& request, const char* name);
 int requested_limit(const httplib::Request& request);
 /// ?after= of a list. Throws HttpError.
 std::string cursor_from_request(const httplib::Request& request);
+
+/// Throws HttpError 400 for a parameter of the query that openapi.json does not have for the route:
+/// a dry run that is misspelled would be none.
+void require_known_parameters(const httplib::Request& request, const Route& route);
 
 /// Throws HttpError 415 unless the body has a JSON media type. This also protects from requests by
 /// other web pages, because browsers send a preflight request before this type.

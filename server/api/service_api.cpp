@@ -13,10 +13,6 @@
 #include "spec/documents/published_schemas.h"
 #include "spec/job/spec.h"
 
-namespace throng::embedded {
-extern const std::string_view kOpenApi;
-}  // namespace throng::embedded
-
 namespace throng::server {
 
 using httplib::Request;

@@ -40,6 +40,10 @@ TEST_F(JobsApi, ADryRunQueuesNothing) {
             "/scenario");
   EXPECT_TRUE(get_json("/v1/jobs")["jobs"].empty());
   expect_problem(client().Post("/v1/jobs?dry_run=maybe", kJob, "application/json"), 400);
+  const std::string message = post("/v1/jobs?dryrun=true", 400, kJob)["errors"][0]["message"];
+  EXPECT_THAT(message, testing::HasSubstr("did you mean \"dry_run\"?"));
+  expect_problem(get("/v1/jobs?stat=queued"), 400);
+  EXPECT_EQ(get("/v1/version?at=noon")->status, 200) << "caches of what is open to everybody";
 }
 
 TEST_F(JobsApi, ASubmissionThatIsRepeatedIsOneJob) {
