@@ -11,6 +11,7 @@
 #include "cli/remote/api_client.h"
 #include "cli/remote/bundle.h"
 #include "cli/shell/commands.h"
+#include "cli/shell/document_kind.h"
 #include "cli/shell/input_file.h"
 #include "world/scenario.h"
 #include "world/scenario_id.h"
@@ -42,12 +43,16 @@ struct UploadArguments {
   bool dry_run = false;
 };
 
+Bundle read_blueprint(const std::string& file) {
+  std::string text = read_input_file(file, "a blueprint");
+  require_scenario(text, file);
+  return {world::id_from_file(file), std::move(text)};
+}
+
 void upload(const UploadArguments& arguments) {
   const std::filesystem::path from = arguments.from;
   const bool is_blueprint = from.extension() == ".json";
-  const Bundle bundle = is_blueprint ? Bundle{world::id_from_file(from),
-                                              read_input_file(arguments.from, "a blueprint")}
-                                     : read_bundle(arguments.from);
+  const Bundle bundle = is_blueprint ? read_blueprint(arguments.from) : read_bundle(arguments.from);
   const std::string name = arguments.name.empty() ? bundle.name : arguments.name;
   ApiClient api;
   const nlohmann::json answer =

@@ -279,6 +279,9 @@ class Messages(unittest.TestCase):
             for command in (("check",), ("run", "-o", "x")):
                 self.refused('a job file, which may be {"scenario": "city_square/everyday"}', *command, name)
 
+    def test_a_job_is_no_scenario_to_upload(self):
+        self.refused("found a job, expected a scenario", "scenarios", "upload", self.job())
+
     def test_what_may_be_no_mistake_is_asked(self):
         radians = {"id": "d", "start": [0, 0, 20], "camera": {"pitch_deg": -1.57}}
         said = throng("check", self.job(drones=[radians])).stdout
