@@ -51,8 +51,9 @@ run_parts() {
 
 step_format() {
   say "checking the format, the language and the types"
-  run_parts cpp_format json_readers python_format shell language generated_types python_types
+  run_parts tree cpp_format json_readers python_format shell language generated_types python_types
 }
+tree() { /usr/bin/python3 scripts/check_tree.py; }
 cpp_format() { sources | xargs clang-format --dry-run --Werror; }
 # Text becomes JSON in one place, which has limits. Tests read what the program wrote by the library itself.
 json_readers() {

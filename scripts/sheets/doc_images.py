@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Renders the pictures of docs/ again, with today's renderer. The table names the command of each picture.
+"""Renders the images of docs/ again, with today's renderer. The table names the command of each image.
 
-usage: scripts/sheets/pictures.py [--list] [PICTURE...]    PICTURE: a path below docs/, or a part of it
+usage: scripts/sheets/doc_images.py [IMAGE...]    IMAGE: a path below docs/, or a part of it
 
 Needs the targets throng, weather_sheet and scenario_sheet of the release build, Pillow and matplotlib, and
-Chromium for docs/studio. All pictures take about 40 CPU-minutes on the software renderer.
+Chromium for docs/studio. All images take about 40 CPU-minutes on the software renderer.
 """
 import json
 import pathlib
@@ -12,8 +12,6 @@ import re
 import subprocess
 import sys
 import tempfile
-
-from PIL import Image
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -51,6 +49,8 @@ SEMANTIC_SCENARIOS = ("station", "market_in_park")
 
 def semantic(folder):
     """A row for each scenario: an image of its demo and its semantic classes."""
+    from PIL import Image
+
     width, height = 640, 360
     page = Image.new("RGB", (2 * width, height * len(SEMANTIC_SCENARIOS)))
     for row, scenario in enumerate(SEMANTIC_SCENARIOS):
@@ -111,20 +111,13 @@ PLOTTED = {
 }
 
 
-def maker(picture):
-    """The function or script that makes a picture, by its path below docs/; None if nothing does."""
+def maker(image):
+    """The function or script that makes a image, by its path below docs/; None if nothing does."""
     makers = {**RENDERED, **PLOTTED}
-    return next((makers[name] for name in makers if picture.startswith(name)), None)
+    return next((makers[name] for name in makers if image.startswith(name)), None)
 
 
 def main():
-    if sys.argv[1:] == ["--list"]:
-        for file in sorted(file for ending in ("jpg", "png", "svg") for file in DOCS.rglob(f"*.{ending}")):
-            made_by = maker(str(file.relative_to(DOCS)))
-            print(
-                file.relative_to(ROOT), made_by if isinstance(made_by, str) else "pictures.py" if made_by else "nothing"
-            )
-        return
     for name, make in RENDERED.items():
         if sys.argv[1:] and not any(wanted in name for wanted in sys.argv[1:]):
             continue
