@@ -11,6 +11,7 @@
 #include "cli/shell/commands.h"
 #include "cli/shell/job_summary.h"
 #include "jobs/pipeline/checks/job_check.h"
+#include "spec/estimates/job_cost.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
@@ -24,8 +25,9 @@ void add_check(CLI::App& app) {
   command->add_flag("--json", *as_json, "Print the answer of the HTTP dry run (docs/api.md)");
   command->footer("Exit code 0 with warnings, 2 with errors.");
   command->callback([file, as_json] {
-    const nlohmann::json answer =
+    nlohmann::json answer =
         to_json(jobs::check_job(read_job_text(*file), *file, world::scenarios_folder()));
+    jobs::warn_of_full_disk(answer, ".");
     if (*as_json) {
       fmt::print("{}\n", answer.dump(2));
     } else {

@@ -48,6 +48,7 @@ jobs::ResolvedJob JobQueue::resolve(std::string_view job_json, const Viewer& vie
 json JobQueue::dry_run(std::string_view job_json, const Viewer& viewer) const {
   json answer = confined_.dry_run(with_cameras(job_json, viewer), folders_.scenarios());
   require_disk(answer.at("estimate").at("disk_bytes").get<std::int64_t>());
+  jobs::warn_of_full_disk(answer, folders_.data());
   constexpr const char* kPublish = "/outputs/publish";
   publish_to_.require(parse_json(job_json, "").value(json::json_pointer(kPublish), ""));
   return answer;

@@ -1,5 +1,7 @@
 #include "spec/estimates/job_cost.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +15,8 @@
 #include "spec/job/spec.h"
 
 namespace throng::jobs {
+
+using nlohmann::json;
 
 namespace {
 
@@ -165,10 +169,32 @@ JobCost estimate_cost(const JobSpec& job, SceneLoad load) {
   return estimate_cost(job, of_runs, load.models_mib);
 }
 
-nlohmann::json estimate_json(const JobCost& cost) {
+json estimate_json(const JobCost& cost) {
   return {{"cpu_s", std::round(10 * cost.cpu_s) / 10},
           {"disk_bytes", cost.disk_bytes},
           {"memory_mib", cost.memory_mib}};
+}
+
+json warning_json(const Problem& warning) {
+  return {{"pointer", warning.where},
+          {"found", warning.found},
+          {"expected", warning.expected},
+          {"message", Problem{"", warning.where, warning.found, warning.expected}.text()}};
+}
+
+void warn_of_full_disk(json& answer, const std::filesystem::path& folder) {
+  constexpr double kBytesPerGb = 1e9;
+  const auto planned = answer.at("estimate").at("disk_bytes").get<double>();
+  std::error_code error;
+  const auto free = static_cast<double>(std::filesystem::space(folder, error).available);
+  if (error || planned <= free) return;
+  answer.at("warnings")
+      .push_back(warning_json(
+          {"", "", fmt::format("a job of about {:.3g} GB", planned / kBytesPerGb),
+           fmt::format(
+               "at most the {:.3g} GB that are free on the disk of {}: fewer runs, images or "
+               "annotations",
+               free / kBytesPerGb, std::filesystem::absolute(folder).string())}));
 }
 
 }  // namespace throng::jobs

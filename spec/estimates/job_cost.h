@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <vector>
 
+#include "base/error.h"
 #include "spec/job/job_spec.h"
 #include "spec/job/resolved_job.h"
 
@@ -43,5 +45,11 @@ JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expect
 /// The members that are estimates, as {"cpu_s", "disk_bytes", "memory_mib"}. The other members are
 /// exact, so answers state them separately.
 nlohmann::json estimate_json(const JobCost& cost);
+
+/// A warning as answers have it: {"pointer", "found", "expected", "message"}.
+nlohmann::json warning_json(const Problem& warning);
+
+/// Adds a warning to the answer of a dry run whose job does not fit on the free disk of a folder.
+void warn_of_full_disk(nlohmann::json& answer, const std::filesystem::path& folder);
 
 }  // namespace throng::jobs
