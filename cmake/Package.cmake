@@ -26,7 +26,7 @@ if(TARGET throng)
     "${PROJECT_SOURCE_DIR}/SECURITY.md"
     DESTINATION share/doc/throng COMPONENT program)
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION share/doc/throng RENAME copyright COMPONENT program)
-  install(FILES "${PROJECT_SOURCE_DIR}/deploy/throng.service" DESTINATION lib/systemd/system COMPONENT program)
+  install(FILES "${PROJECT_SOURCE_DIR}/server/throng.service" DESTINATION lib/systemd/system COMPONENT program)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION share/doc/throng COMPONENT program)
 endif()
 

@@ -41,7 +41,8 @@ auto refuse_foreign(const fs::path& file, const std::size_t& line, const Change&
 std::int64_t shifted(std::int64_t id, std::int64_t shift) {
   std::int64_t sum = 0;
   if (__builtin_add_overflow(id, shift, &sum)) {
-    throw InputError({"", "", fmt::format("the id {}", id), "an id that others can follow"});
+    throw nlohmann::json::out_of_range::create(501, fmt::format("the id {} is too large", id),
+                                               nullptr);
   }
   return sum;
 }
@@ -54,14 +55,14 @@ std::string shifted_word(std::string_view word, std::int64_t shift) {
 }
 
 /// A CSV in whose columns of these names are track ids, several in a cell with spaces between them.
-std::string shifted_csv(const std::string& text, std::initializer_list<std::string_view> names,
-                        std::int64_t shift) {
+std::string shifted_csv(const std::string& text, std::size_t& line,
+                        std::initializer_list<std::string_view> names, std::int64_t shift) {
   std::string result;
   std::vector<bool> is_shifted;
   std::size_t start = 0;
   while (start < text.size()) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
-    const bool is_header = start == 0;
+    const bool is_header = ++line == 1;
     std::size_t column = 0;
     std::size_t at = start;
     while (at <= end) {
@@ -197,23 +198,21 @@ std::optional<std::string> with_shifted_tracks(const fs::path& file, const std::
                                                std::int64_t shift) {
   const std::string ending = file.extension().string();
   if (shift == 0) return std::nullopt;
-  if (kind == "actions") return shifted_csv(read_file(file), {"track_id", "other"}, shift);
-  if (kind == "counts" && ending == ".csv") {
-    return shifted_csv(read_file(file), {"entered", "left"}, shift);
-  }
-  std::size_t line = 1;
-  if (kind == "events") {
-    line = 0;
-    return refuse_foreign(file, line, [&] { return shifted_lines(read_file(file), line, shift); });
-  }
-  if (kind == "trajectories" && ending == ".json") {
-    return refuse_foreign(file, line, [&] {
+  std::size_t line = 0;
+  return refuse_foreign(file, line, [&]() -> std::optional<std::string> {
+    if (kind == "actions") return shifted_csv(read_file(file), line, {"track_id", "other"}, shift);
+    if (kind == "counts" && ending == ".csv") {
+      return shifted_csv(read_file(file), line, {"entered", "left"}, shift);
+    }
+    if (kind == "events") return shifted_lines(read_file(file), line, shift);
+    if (kind == "trajectories" && ending == ".json") {
+      line = 1;
       ordered_json people = parse_ordered_json(read_file(file));
       shift_ids(people.at("track_ids"), shift);
       return people.dump() + "\n";
-    });
-  }
-  return std::nullopt;
+    }
+    return std::nullopt;
+  });
 }
 
 void join_coco_files(const std::vector<CocoPart>& parts, const std::string& description,

@@ -200,7 +200,7 @@ int serve(const ServeOptions& options) {
   jobs::protect_this_process();
   const bool is_container = is_in_container();
   const bool logs_json = options.log_json || (is_container && ::isatty(STDOUT_FILENO) == 0);
-  set_up_log(logs_json, is_container, options.log_file);
+  const ServiceLog log(logs_json, is_container, options.log_file);
   std::signal(SIGPIPE, SIG_IGN);
   rlimit files{};  // each connection is one, and each file that is sent
   if (::getrlimit(RLIMIT_NOFILE, &files) == 0) {
@@ -246,7 +246,7 @@ int serve(const ServeOptions& options) {
   announce(service_url(options.host, api.port()),
            logs_json && is_container && options.log_file.empty());
   const SignalWatch watch([&](int signal) {
-    if (signal == SIGHUP || signal == SIGUSR1) reopen_log();
+    if (signal == SIGHUP || signal == SIGUSR1) log.reopen();
     if (signal == SIGUSR2) service.drain().begin();
     if (signal != SIGTERM && signal != SIGINT) return true;
     spdlog::info("ending");

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -18,12 +17,9 @@ namespace throng::server {
 
 namespace {
 
-std::FILE* stream_of_file = nullptr;  // open until the process ends
-std::filesystem::path path_of_file;
-
-int open_log() {
+int open_log(const std::filesystem::path& file) {
   constexpr mode_t kOwnerOnly = 0600;
-  return ::open(path_of_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, kOwnerOnly);
+  return ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, kOwnerOnly);
 }
 
 /// A sink of spdlog for a stream that is not stdout.
@@ -31,17 +27,17 @@ using StreamSink = spdlog::sinks::stdout_sink_base<spdlog::details::console_mute
 
 }  // namespace
 
-void set_up_log(bool as_json, bool to_stdout, const std::filesystem::path& file) {
+ServiceLog::ServiceLog(bool as_json, bool to_stdout, const std::filesystem::path& file) {
   if (!file.empty()) {
-    path_of_file = std::filesystem::absolute(file);
-    const int descriptor = open_log();
+    file_ = std::filesystem::absolute(file);
+    const int descriptor = open_log(file_);
     if (descriptor < 0) throw_environment_error("--log: cannot write to " + file.string(), errno);
-    stream_of_file = ::fdopen(descriptor, "a");
+    stream_ = ::fdopen(descriptor, "a");
     // The buffer holds whole lines when the file is opened again.
     constexpr std::size_t kBufferBytes = 1 << 16;
-    std::setvbuf(stream_of_file, nullptr, _IOFBF, kBufferBytes);
+    std::setvbuf(stream_, nullptr, _IOFBF, kBufferBytes);
   }
-  std::FILE* stream = stream_of_file != nullptr ? stream_of_file : to_stdout ? stdout : stderr;
+  std::FILE* stream = stream_ != nullptr ? stream_ : to_stdout ? stdout : stderr;
   const auto logger =
       std::make_shared<spdlog::logger>("throng", std::make_shared<StreamSink>(stream));
   if (as_json) {
@@ -52,12 +48,12 @@ void set_up_log(bool as_json, bool to_stdout, const std::filesystem::path& file)
   spdlog::set_default_logger(logger);
 }
 
-void reopen_log() {
-  if (stream_of_file == nullptr) return;
-  const int descriptor = open_log();
+void ServiceLog::reopen() const {
+  if (stream_ == nullptr) return;
+  const int descriptor = open_log(file_);
   // One call: a line is written either to the old file or to the new one.
-  if (descriptor < 0 || ::dup3(descriptor, ::fileno(stream_of_file), O_CLOEXEC) < 0) {
-    spdlog::warn("{}: not opened again: {}", path_of_file.string(), std::strerror(errno));
+  if (descriptor < 0 || ::dup3(descriptor, ::fileno(stream_), O_CLOEXEC) < 0) {
+    spdlog::warn("{}: not opened again: {}", file_.string(), std::strerror(errno));
   }
   if (descriptor >= 0) ::close(descriptor);
   spdlog::info("log opened again");

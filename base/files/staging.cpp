@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -73,6 +74,17 @@ fs::path staging_path(const fs::path& final_path) {
                                        host, ::getpid(), random, count++);
   const fs::path folder = is_staging_in_folder() ? area().folder : final_path.parent_path();
   return folder / name;
+}
+
+bool is_staging_name(std::string_view name) {
+  constexpr auto kParts = 4;  // behind ".tmp": host, process, random number, count
+  const auto mark = name.rfind(".tmp.");
+  const auto last = name.rfind('.');
+  return mark != std::string_view::npos &&
+         std::count(name.begin() + static_cast<std::ptrdiff_t>(mark) + 1, name.end(), '.') >=
+             kParts &&
+         last + 1 < name.size() &&
+         name.find_first_not_of("0123456789", last + 1) == std::string_view::npos;
 }
 
 std::error_code publish_staged(const fs::path& staged, const fs::path& final_path) {

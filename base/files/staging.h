@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -25,6 +26,9 @@ std::vector<std::filesystem::path> published_files();
 /// Returns a new temporary path for `final_path`: PATH.tmp.HOST.PID.RANDOM.NUMBER beside it, or a
 /// path with such a name in the folder of stage_in(). Unique among processes and hosts.
 std::filesystem::path staging_path(const std::filesystem::path& final_path);
+
+/// Whether a file or folder has a name that staging_path() makes.
+bool is_staging_name(std::string_view name);
 
 /// Renames a file or folder at a path of staging_path(). With stage_in(), the source is looked up
 /// in the folder that was opened then: if that folder was removed, renaming fails even if a new

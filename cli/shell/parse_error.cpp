@@ -128,9 +128,12 @@ Problem parse_problem(const CLI::App& app, const CLI::ParseError& error,
   }
   if (is_like(R"((\S+): Value (.*) not in range (\S+) to (\S+))")) {
     const bool is_open = std::strtod(found[4].str().c_str(), nullptr) >= kOpen;
+    // CLI11 prints the smallest positive number as 0, which is refused then.
+    const bool is_above = std::strtod(found[2].str().c_str(), nullptr) == 0;
     return {command.name, found[1], found[2],
-            is_open ? fmt::format("a number of at least {}", plain(found[3]))
-                    : fmt::format("{} to {}", plain(found[3]), plain(found[4]))};
+            !is_open   ? fmt::format("{} to {}", plain(found[3]), plain(found[4]))
+            : is_above ? "a number above 0"
+                       : fmt::format("a number of at least {}", plain(found[3]))};
   }
   if (is_like(R"((\S+): Number less or equal to 0: (.*))")) {
     return {command.name, found[1], found[2], "a number above 0"};

@@ -101,8 +101,7 @@ std::string markdown(const Results& results) {
       "([crowd.md](crowd.md)). **+** passed, **-** failed, **o** reported (the source "
       "sets no criterion, and the test counts for nothing), with what was measured. Tests of RiMEA "
       "and NIST TN 1822 that need stairs, smoke or lifts are left out, since a crowd in a plane "
-      "has "
-      "none, and so is NIST 2.9 (groups), whose result is no figure; criteria are those of "
+      "has none, and so is NIST 2.9 (groups), whose result is no figure; criteria are those of "
       "published implementations (JuPedSim, Vadere).\n\n";
   if (results.effort == Effort::reduced) {
     page +=

@@ -136,7 +136,7 @@ std::span<const Route> routes() {
       Route{Method::post, "/v1/service/drain", Scope::admin, &begin_drain},
       Route{Method::get, "/v1/version", Scope::anybody, &send_version},
       Route{Method::get, "/openapi.json", Scope::anybody, &send_openapi},
-      Route{Method::get, "/metrics", Scope::read, &send_figures},
+      Route{Method::get, "/metrics", Scope::read, &send_service_metrics},
       Route{Method::get, "/healthz", Scope::anybody, &send_health},
       Route{Method::get, "/readyz", Scope::anybody, &send_readiness},
   };

@@ -1,5 +1,5 @@
-// Routes of the service itself: health, drain, schemas, and names that jobs may
-// use.
+// Routes of the service itself: health, metrics (metrics.cpp), drain, schemas, and names that jobs
+// may use.
 #pragma once
 
 #include "server/api/request_context.h"
@@ -12,9 +12,9 @@ void send_health(const RequestContext& context, const httplib::Request& request,
 /// Responds with 503 and the reason if jobs cannot be accepted or run.
 void send_readiness(const RequestContext& context, const httplib::Request& request,
                     httplib::Response& response);
-/// Sends metrics in the text format of Prometheus.
-void send_figures(const RequestContext& context, const httplib::Request& request,
-                  httplib::Response& response);
+/// Sends metrics in the text format of Prometheus (docs/operations.md).
+void send_service_metrics(const RequestContext& context, const httplib::Request& request,
+                          httplib::Response& response);
 /// Ends the service once its running tasks have finished.
 void begin_drain(const RequestContext& context, const httplib::Request& request,
                  httplib::Response& response);

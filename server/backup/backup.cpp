@@ -15,6 +15,7 @@
 #include "base/files/files.h"
 #include "base/files/hash.h"
 #include "base/files/path_below.h"
+#include "base/files/staging.h"
 #include "base/files/untrusted_folders.h"
 #include "base/version.h"
 #include "server/backup/backup_files.h"
@@ -66,16 +67,6 @@ fs::path job_folder(const std::string& id, const JobMark& mark) {
                   : mark.kind == "study"     ? "studies"
                                              : "jobs") /
          id;
-}
-
-/// Whether a file or folder is one under construction (base/files/staging.h):
-/// NAME.tmp.HOST.PID.RANDOM.NUMBER.
-bool is_temporary(const std::string& name) {
-  const auto at = name.rfind(".tmp.");
-  const auto last = name.rfind('.');
-  return at != std::string::npos && std::count(name.begin() + at, name.end(), '.') >= 5 &&
-         last + 1 < name.size() &&
-         name.find_first_not_of("0123456789", last + 1) == std::string::npos;
 }
 
 class Backup {
@@ -177,7 +168,7 @@ class Backup {
       std::error_code gone;
       const fs::file_status status = entry->symlink_status(gone);
       // Attempts on a cluster are those of the service that runs.
-      if (is_temporary(name) || (name == "attempts" && entry.depth() == 0)) {
+      if (is_staging_name(name) || (name == "attempts" && entry.depth() == 0)) {
         entry.disable_recursion_pending();
       } else if (fs::is_regular_file(status)) {
         files_.emplace_back(entry->path().lexically_relative(data_),

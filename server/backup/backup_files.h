@@ -15,7 +15,7 @@ inline constexpr const char* kBackupFormat = "throng backup 1";  ///< with its v
 inline constexpr const char* kBackupNote = "backup.json";
 inline constexpr const char* kBackupSums = "SHA256SUMS";
 inline constexpr const char* kBackupData = "data";
-/// Databases of a service, in the order in which they are restored: it starts with the last one.
+/// Databases of a service, which starts with that of the jobs.
 inline constexpr std::array kDatabases = {"keys.sqlite", "webhooks.sqlite", "jobs.sqlite"};
 
 /// Copies files, also such as have several names, and counts bytes.

@@ -174,13 +174,12 @@ BackupSize restore(const fs::path& backup, const fs::path& data, const fs::path&
   if (!database.empty()) require_apart(data, database, "--database");
   distrust_folders_in(backup);
   std::vector<SavedFile> files = parse_sums(read_sums(backup), (backup / kBackupSums).string());
-  // Databases last: a service that starts sees all files of its jobs.
-  std::stable_sort(files.begin(), files.end(), [](const SavedFile& a, const SavedFile& b) {
-    const auto rank = [](const SavedFile& file) {
-      return std::find(kDatabases.begin(), kDatabases.end(), file.path) - kDatabases.begin();
-    };
-    return (rank(a) + 1) % (kDatabases.size() + 1) < (rank(b) + 1) % (kDatabases.size() + 1);
-  });
+  // Databases last, and that of the jobs at the end: a service that starts sees all files of its
+  // jobs and needs its keys.
+  const auto first_database = std::stable_partition(
+      files.begin(), files.end(), [](const SavedFile& file) { return !is_database(file.path); });
+  std::stable_partition(first_database, files.end(),
+                        [](const SavedFile& file) { return file.path != "jobs.sqlite"; });
   const fs::path from = backup / kBackupData;
   BackupSize size{static_cast<std::int64_t>(files.size()), 0};
   for (const SavedFile& file : files) {

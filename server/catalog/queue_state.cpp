@@ -39,13 +39,7 @@ std::optional<JobRow> QueueState::apply(const JobRow& row, JobEvent event,
 void QueueState::count_end(const JobRow& ended) {
   const nlohmann::json error = parse_json_or_discard(ended.error_json);
   const std::string cause = error.is_object() ? error.value("kind", "") : "";
-  const std::lock_guard lock(mutex_);
-  ++ended_[{std::string(to_string(ended.state)), cause}];
-}
-
-std::map<std::pair<std::string, std::string>, std::int64_t> QueueState::ended_jobs() const {
-  const std::lock_guard lock(mutex_);
-  return ended_;
+  ended_.add(prometheus_labels({{"state", to_string(ended.state)}, {"cause", cause}}));
 }
 
 void QueueState::drain() {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/prometheus.h"
 #include "jobs/queue/store/store.h"
 #include "server/catalog/event_counter.h"
 
@@ -87,8 +88,8 @@ class QueueState {
   void drain();
   bool is_draining() const;
 
-  /// Jobs that have ended since the start, by end and cause: {"failed", "input"}.
-  std::map<std::pair<std::string, std::string>, std::int64_t> ended_jobs() const;
+  /// Metrics of the jobs that have ended since the start, by state and cause.
+  std::string ended_jobs() const { return ended_.text(); }
 
  private:
   void count_end(const jobs::JobRow& ended);
@@ -104,8 +105,9 @@ class QueueState {
   bool queued_ = true;                   ///< a job may be ready to start; guarded by mutex_
   std::string paused_;                   ///< guarded by mutex_
   bool is_draining_ = false;             ///< guarded by mutex_
-  std::map<std::pair<std::string, std::string>, std::int64_t> ended_;  ///< guarded by mutex_
-  std::map<std::string, Active> active_;                               ///< by id; guarded by mutex_
+  PrometheusMeter ended_{"throng_jobs_ended_total",
+                         "Jobs that have ended since the start, by state and cause of failure."};
+  std::map<std::string, Active> active_;  ///< by id; guarded by mutex_
   mutable EventCounter event_counter_;
   std::atomic<std::uint64_t> revision_ = 0;
 };

@@ -79,7 +79,7 @@ class JobQueue {
   std::map<jobs::JobState, std::int64_t> count() const { return store_.count(); }
   std::vector<jobs::OwnerCount> count_by_owner() const { return store_.count_by_owner(); }
   /// QueueState::ended_jobs()
-  auto ended_jobs() const { return state_.ended_jobs(); }
+  std::string ended_jobs() const { return state_.ended_jobs(); }
   /// Disk usage of all jobs.
   std::int64_t total_bytes() const { return store_.total_bytes(); }
   /// The reason why the queue is paused; "" if it is not.

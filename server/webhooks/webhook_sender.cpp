@@ -9,18 +9,13 @@
 
 #include "base/version.h"
 #include "server/catalog/api_json.h"
+#include "server/catalog/unix_time.h"
 
 namespace throng::server {
 
 using namespace std::chrono_literals;
 
 namespace {
-
-std::int64_t unix_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 bool is_wanted(const Webhook& webhook, const std::string& type) {
   return std::any_of(webhook.events.begin(), webhook.events.end(),
@@ -52,7 +47,7 @@ void WebhookSender::stop() {
 Delivery WebhookSender::post(const Webhook& webhook, std::int64_t event, const std::string& type,
                              int attempt, const std::string& body,
                              const std::stop_token& stop) const {
-  Delivery delivery{event, type, unix_ms(), attempt, 0, "", 0};
+  Delivery delivery{event, type, unix_ms_now(), attempt, 0, "", 0};
   const auto begun = std::chrono::steady_clock::now();
   constexpr std::int64_t kMsPerS = 1000;
   const PostHeaders headers = {
@@ -67,7 +62,8 @@ Delivery WebhookSender::post(const Webhook& webhook, std::int64_t event, const s
   delivery.took_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
                          std::chrono::steady_clock::now() - begun)
                          .count();
-  ++(delivery.succeeded() ? delivered_ : failed_);
+  const char* outcome = delivery.succeeded() ? "succeeded" : "failed";
+  attempts_.add(prometheus_labels({{"outcome", outcome}}));
   return delivery;
 }
 

@@ -12,10 +12,8 @@
 // 2, 4... seconds, at last every ten minutes; a webhook that has failed for a day is disabled.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -23,6 +21,7 @@
 #include <string>
 #include <thread>
 
+#include "base/text/prometheus.h"
 #include "server/jobs/job_queue.h"
 #include "server/webhooks/bounded_post.h"
 #include "server/webhooks/webhooks.h"
@@ -50,9 +49,8 @@ class WebhookSender {
   /// Whether webhooks may have addresses that are not public (server/webhooks/public_address.h).
   bool allows_private() const { return options_.post.allow_private; }
 
-  /// Numbers of attempts that webhooks accepted, and of others, since the start.
-  std::int64_t delivered() const { return delivered_; }
-  std::int64_t failed() const { return failed_; }
+  /// Metrics of the attempts to deliver events.
+  std::string attempts() const { return attempts_.text(); }
 
   /// Cancels current deliveries and prevents further ones.
   void stop();
@@ -73,8 +71,8 @@ class WebhookSender {
   const JobQueue& queue_;
   Webhooks webhooks_;
   WebhookSenderOptions options_;
-  mutable std::atomic<std::int64_t> delivered_ = 0;
-  mutable std::atomic<std::int64_t> failed_ = 0;
+  mutable PrometheusMeter attempts_{"throng_webhook_deliveries_total",
+                                    "Attempts to deliver events, by outcome."};
   std::stop_source ending_;
   std::mutex mutex_;
   std::condition_variable_any stopped_;

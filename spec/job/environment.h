@@ -17,8 +17,8 @@ namespace throng::jobs {
 /// The fields below "environment". `weather` holds values of render::Weather as numbers.
 struct EnvironmentSpec {
   Distribution time_of_day_h{15.5};
-  Distribution latitude_deg{45};
-  Distribution day_of_year{225};
+  Distribution latitude_deg{kUsualLatitudeDeg};
+  Distribution day_of_year{kUsualDayOfYear};
   Distribution weather{0};
   std::optional<Distribution> visibility_m;  ///< default: by the weather
   Distribution rain_mm_per_h{4};

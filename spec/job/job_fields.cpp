@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/text/control_characters.h"
 #include "crowd/description/options.h"
 #include "spec/job/airframe_camera.h"
 #include "spec/job/randomize.h"
@@ -173,6 +174,7 @@ FieldTable<JobSpec> make_job_fields() {
           raw({{"type", {"string", "object", "array"}},
                {"minLength", 1},
                {"maxLength", 200},
+               {kOneLine, true},
                {"minItems", 1},
                {"maxItems", 64},
                {"items", share_rules()}},

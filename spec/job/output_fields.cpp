@@ -98,9 +98,7 @@ FieldTable<JobSpec>::Set scenarios_setter(Split split) {
 }
 
 Values split_scenarios() {
-  return raw({{"type", "array"},
-              {"maxItems", 64},
-              {"items", {{"type", "string"}, {"minLength", 1}, {"maxLength", 200}}}});
+  return raw({{"type", "array"}, {"maxItems", 64}, {"items", texts(1, 200).rules}});
 }
 
 /// They are printed as runs.

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/compute/random.h"
+#include "base/text/control_characters.h"
 #include "spec/job/plan.h"
 
 namespace throng::jobs {
@@ -101,7 +102,8 @@ ordered_json share_rules() {
                         {"description", "One of several scenarios of a job."},
                         {"type", {"string", "object"}},
                         {"minLength", 1},
-                        {"maxLength", 200}};
+                        {"maxLength", 200},
+                        {kOneLine, true}};
   rules.update(share_fields().schema());
   return rules;
 }

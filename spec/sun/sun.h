@@ -3,6 +3,10 @@
 
 namespace throng::jobs {
 
+/// The place and the day of jobs that name none: mid-August in southern Europe.
+inline constexpr double kUsualLatitudeDeg = 45;
+inline constexpr int kUsualDayOfYear = 225;
+
 /// The sun's direction.
 struct Sun {
   double azimuth_rad = 0;    ///< counter-clockwise from +x (east); +y is north

@@ -42,16 +42,20 @@ constexpr std::array<SunWord, 6> kSunWords = {{{"midnight", 0, 0, 0},
                                                {"noon", 0, 0, kSunNoonMin},
                                                {"sunset", 1, 0, 0},
                                                {"dusk", 1, kTwilightDeg, 0}}};
-constexpr std::array<std::string_view, kSunWords.size()> kSunNames = {
-    "midnight", "dawn", "sunrise", "noon", "sunset", "dusk"};
+std::vector<std::string_view> sun_names() {
+  std::vector<std::string_view> names;
+  names.reserve(kSunWords.size());
+  for (const SunWord& word : kSunWords) names.push_back(word.word);
+  return names;
+}
 
 constexpr const char* kExpectedTime =
     "a time HH:MM, or midnight, dawn, sunrise, noon, sunset or dusk, also as \"sunset-20min\"";
 
 /// The latitude and the day that the sun is looked at.
 struct SunPosition {
-  double latitude_deg = 45;
-  int day_of_year = 225;
+  double latitude_deg = kUsualLatitudeDeg;
+  int day_of_year = kUsualDayOfYear;
   bool is_sampled = false;  ///< other ones in other runs
 };
 
@@ -131,7 +135,7 @@ class SunTimes {
     const auto word = std::find_if(kSunWords.begin(), kSunWords.end(),
                                    [&](const SunWord& one) { return one.word == name; });
     if (!is_form || word == kSunWords.end())
-      return refuse(kExpectedTime + did_you_mean(name, kSunNames));
+      return refuse(kExpectedTime + did_you_mean(name, sun_names()));
     if (word->half_day != 0 && position_.is_sampled) {
       return refuse("a time HH:MM, noon or midnight, since the latitude or the day is sampled");
     }
@@ -171,9 +175,9 @@ class SunTimes {
 void resolve_sun_times(json& job, std::vector<Problem>& problems) {
   if (!job.is_object()) return;
   SunTimes times(read_position(job), problems);
-  const std::pair<const char*, const char*> places[] = {{"environment", "time_of_day"},
-                                                        {"randomize", "environment.time_of_day"}};
-  for (const auto& [part, key] : places) {
+  constexpr std::array kFields = {std::pair{"environment", "time_of_day"},
+                                  std::pair{"randomize", "environment.time_of_day"}};
+  for (const auto& [part, key] : kFields) {
     const auto found = job.find(part);
     if (found == job.end() || !found->is_object() || !found->contains(key)) continue;
     times.resolve((*found)[key], fmt::format("/{}/{}", part, key));

@@ -51,7 +51,7 @@ class Client(unittest.TestCase):
         return done.stdout if code == 0 else done.stderr
 
     def test_submit_watch_and_fetch(self):
-        self.assertRegex(self.throng("submit", self.job, "--dry-run"), r"valid[^$]*, 1 run\n *images ")
+        self.assertRegex(self.throng("submit", self.job, "--dry-run"), r"valid[^$]*, 1 run\n *light [^\n]*\n *images ")
         archive = self.base / "out.tar"
         id_ = self.throng("submit", self.job, "--label", "a b", "--key", "k", "--fetch", archive).split()[0]
         with tarfile.open(archive) as tar:

@@ -220,7 +220,10 @@ class Messages(unittest.TestCase):
 
     def test_limits_are_named(self):
         self.run_job("/capture/to_s: found 5, expected at least from_s, which is 10", capture={"from_s": 10, "to_s": 5})
-        self.run_job("/crowd/agents: found 5000, expected 1 to 260, the people", crowd={"agents": 5000})
+        self.run_job(
+            "/crowd/agents: found 5000, expected 1 to 260, all who are in the scenario at the start",
+            crowd={"agents": 5000},
+        )
 
     def test_another_kind_of_file_is_recognized(self):
         place = self.folder / "yard.blueprint.json"
@@ -279,10 +282,8 @@ class Messages(unittest.TestCase):
             fine = {**radians, "camera": {"pitch_deg": pitch}}
             self.assertNotIn("radians", throng("check", self.job(drones=[fine])).stdout, pitch)
         self.refused("1 to ", "check", self.job(crowd={"agents": 1_000_000}))
-        arriving = json.loads(self.job(scenario="concert/everyday", crowd={"agents": 2000}).read_text())
-        arriving["capture"] = {"to_s": 1, "rate_hz": 1}
-        (self.folder / "my.job.json").write_text(json.dumps(arriving))
-        said = throng("check", self.folder / "my.job.json").stdout
+        capture = {"to_s": 1, "rate_hz": 1}
+        said = throng("check", self.job(scenario="concert/everyday", crowd={"agents": 2000}, capture=capture)).stdout
         self.assertRegex(said, r"people +1\d+ of 2000, as the others come after the end")
 
     def test_inputs_are_not_written_over(self):

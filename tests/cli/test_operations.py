@@ -290,7 +290,7 @@ class Operations(unittest.TestCase):
 
 
 class Unit(unittest.TestCase):
-    unit = ROOT / "deploy/throng.service"
+    unit = ROOT / "server/throng.service"
 
     def settings(self):
         return [line.partition("=")[::2] for line in self.unit.read_text().splitlines() if re.match(r"\w+=", line)]

@@ -50,7 +50,7 @@ class BackupTest : public ServiceFixture {
     return id;
   }
 
-  /// Writes the backup's list and note again, as somebody would who has changed its files.
+  /// Writes the backup's list and note again, as an attacker does after changing its files.
   void sign(const std::string& sums) const {
     write_file_atomically(out / "SHA256SUMS", sums);
     nlohmann::json note = nlohmann::json::parse(read_file(out / "backup.json"));

@@ -81,6 +81,13 @@ TEST_F(Spec, AJobNamedAfterALongScenarioIsAcceptedAgain) {
   EXPECT_EQ(to_json(parse(written)).dump(), written);
 }
 
+// The name of a job without one is made of them.
+TEST_F(Spec, IdsOfScenariosHaveNoControlCharacters) {
+  EXPECT_THAT(pointers_of(R"({"scenario": "yard\u007f"})"), ElementsAre("/scenario"));
+  EXPECT_THAT(pointers_of(R"({"scenario": ["yard", "yard\n", {"id": "yard\u0001"}]})"),
+              ElementsAre("/scenario/1", "/scenario/2/id"));
+}
+
 TEST_F(Spec, AResolvedJobIsReadAsItWasWritten) {
   const json written = to_json(parse(R"({"scenario": "yard", "crowd": {"model": "orca"},
     "drones": [{"id": "d1", "camera": {"pitch_deg": {"uniform": [-80, -40]}}}],

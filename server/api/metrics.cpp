@@ -1,3 +1,4 @@
+// The metrics of service_api.h.
 #include <unistd.h>
 
 #include <algorithm>
@@ -77,8 +78,8 @@ std::string one(const char* name, const char* type, const char* help, double val
   return prometheus_head(name, type, help) + prometheus_line(name, "", value);
 }
 
-/// Figures of a cluster's nodes; "" if tasks run on this machine.
-std::string node_figures(const std::vector<jobs::NodeWork>& nodes) {
+/// Metrics of a cluster's nodes; "" if tasks run on this machine.
+std::string node_metrics(const std::vector<jobs::NodeWork>& nodes) {
   if (nodes.empty()) return "";
   std::string running =
       prometheus_head("throng_node_tasks", "gauge", "Tasks that run now, by node.");
@@ -99,7 +100,7 @@ std::string node_figures(const std::vector<jobs::NodeWork>& nodes) {
   return running + ended + busy;
 }
 
-std::string job_figures(const JobQueue& queue) {
+std::string job_metrics(const JobQueue& queue) {
   std::string text =
       prometheus_head("throng_jobs", "gauge", "Jobs, calibrations and studies by state.");
   for (const auto& [state, count] : queue.count()) {
@@ -122,16 +123,10 @@ std::string job_figures(const JobQueue& queue) {
         prometheus_labels({{"key", of.first}, {"state", to_string(of.second)}});
     text += prometheus_line("throng_key_jobs", labels, static_cast<double>(count));
   }
-  text += prometheus_head("throng_jobs_ended_total", "counter",
-                          "Jobs that have ended since the start, by state and cause of failure.");
-  for (const auto& [end, count] : queue.ended_jobs()) {
-    const std::string labels = prometheus_labels({{"state", end.first}, {"cause", end.second}});
-    text += prometheus_line("throng_jobs_ended_total", labels, static_cast<double>(count));
-  }
-  return text;
+  return text + queue.ended_jobs();
 }
 
-std::string disk_figures(const RequestContext& context) {
+std::string disk_metrics(const RequestContext& context) {
   const DiskState disk = measure_disk(context.folders.data());
   constexpr const char* kStored = "throng_stored_bytes";
   std::int64_t uploads = 0;
@@ -149,17 +144,12 @@ std::string disk_figures(const RequestContext& context) {
 
 }  // namespace
 
-void send_figures(const RequestContext& context, const httplib::Request&,
-                  httplib::Response& response) {
+void send_service_metrics(const RequestContext& context, const httplib::Request&,
+                          httplib::Response& response) {
   const auto events = static_cast<double>(context.queue.last_event());
   const ResidentBytes memory = resident_bytes();
-  constexpr const char* kDeliveries = "throng_webhook_deliveries_total";
-  const auto deliveries = [](const char* outcome, std::int64_t count) {
-    return prometheus_line(kDeliveries, prometheus_labels({{"outcome", outcome}}),
-                           static_cast<double>(count));
-  };
   response.set_content(
-      job_figures(context.queue) +
+      job_metrics(context.queue) +
           one("throng_events_total", "counter", "Events of jobs since the store was made.",
               events) +
           one("throng_event_streams", "gauge", "Clients that watch events.",
@@ -169,15 +159,13 @@ void send_figures(const RequestContext& context, const httplib::Request&,
               context.queue.paused().empty() ? 0 : 1) +
           one("throng_draining", "gauge", "1 while the service waits for its last tasks.",
               context.drain.has_begun() ? 1 : 0) +
-          context.tasks.text() + node_figures(context.executor.nodes()) + disk_figures(context) +
+          context.tasks.text() + node_metrics(context.executor.nodes()) + disk_metrics(context) +
           one("process_resident_memory_bytes", "gauge", "Memory of the server in RAM.",
               static_cast<double>(memory.server)) +
           one("throng_workers_resident_memory_bytes", "gauge",
               "Memory in RAM of the server's children on this machine.",
               static_cast<double>(memory.workers)) +
-          prometheus_head(kDeliveries, "counter", "Attempts to deliver events, by outcome.") +
-          deliveries("succeeded", context.hooks.delivered()) +
-          deliveries("failed", context.hooks.failed()) + context.http.text(),
+          context.hooks.attempts() + context.http.text(),
       "text/plain; version=0.0.4; charset=utf-8");
 }
 
