@@ -84,7 +84,7 @@ struct ScenarioCheck {
   std::vector<Problem> warnings;
 };
 
-/// People who come while the run lasts.
+/// People who come before the end of a run.
 struct ExpectedArrivals {
   double people = 0;
   double at_a_time = 0;  ///< mean number of them who are present, as if nobody left
@@ -93,7 +93,7 @@ struct ExpectedArrivals {
 ExpectedArrivals expected_arrivals(const crowd::Simulation& simulation, double duration_s) {
   ExpectedArrivals expected;
   for (const double time_s : simulation.planned_arrivals_s()) {
-    if (time_s > duration_s) continue;
+    if (time_s >= duration_s) continue;
     ++expected.people;
     expected.at_a_time += 1 - time_s / duration_s;
   }
