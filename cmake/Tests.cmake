@@ -89,5 +89,5 @@ function(throng_script_test name)
     set(slots 1)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT_S} PROCESSORS ${slots}
-    ENVIRONMENT "THRONG_PEOPLE=${people}" FIXTURES_REQUIRED "${ARG_FIXTURES}")
+    ENVIRONMENT "THRONG_PEOPLE=${people};XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache" FIXTURES_REQUIRED "${ARG_FIXTURES}")
 endfunction()

@@ -31,6 +31,7 @@ struct Crowd {
   std::uint64_t seed = 1;                                   ///< seed of the run
   std::vector<std::vector<std::uint32_t>> social_groups;    ///< ids of the members of each group
   std::size_t awaited = 0;                                  ///< number of agents still to arrive
+  std::vector<double> planned_arrivals_s;                   ///< when agents are to arrive, of all
   double dt_s = 0.1;                                        ///< duration of one (sub-)step
   std::uint64_t step = 0;
 

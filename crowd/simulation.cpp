@@ -162,6 +162,10 @@ std::span<const GoalId> Simulation::goals() const { return state_->crowd.agents.
 
 std::span<const std::uint8_t> Simulation::present() const { return state_->crowd.agents.present; }
 
+std::span<const double> Simulation::planned_arrivals_s() const {
+  return state_->crowd.planned_arrivals_s;
+}
+
 std::span<const std::uint8_t> Simulation::panicked() const { return state_->crowd.agents.panicked; }
 
 std::span<const std::uint8_t> Simulation::fallen() const { return state_->crowd.agents.fallen; }

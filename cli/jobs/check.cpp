@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +12,8 @@
 #include "cli/shell/commands.h"
 #include "cli/shell/job_summary.h"
 #include "jobs/pipeline/checks/job_check.h"
+#include "jobs/queue/machine_speed.h"
+#include "spec/estimates/job_cost.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
@@ -24,8 +27,10 @@ void add_check(CLI::App& app) {
   command->add_flag("--json", *as_json, "Print the answer of the HTTP dry run (docs/api.md)");
   command->footer("Exit code 0 with warnings, 2 with errors.");
   command->callback([file, as_json] {
-    const nlohmann::json answer =
+    nlohmann::json answer =
         to_json(jobs::check_job(read_job_text(*file), *file, world::scenarios_folder()));
+    jobs::fit_to_machine(answer, jobs::user_speed_file());
+    jobs::warn_of_full_disk(answer, ".", "the disk of " + std::filesystem::current_path().string());
     if (*as_json) {
       fmt::print("{}\n", answer.dump(2));
     } else {

@@ -21,6 +21,7 @@
 #include "jobs/queue/dataset/run_warnings.h"
 #include "jobs/queue/delivery.h"
 #include "jobs/queue/executors.h"
+#include "jobs/queue/machine_speed.h"
 #include "jobs/queue/profile.h"
 #include "jobs/queue/supervisor.h"
 #include "spec/bucket/address.h"
@@ -82,6 +83,7 @@ jobs::Share job_share(const jobs::ResolvedJob& job) {
   share.on_wait = [](const std::string& reason) {
     if (!reason.empty()) fmt::print(stderr, "\nthrong: {}\n", reason);
   };
+  share.speed_file = jobs::user_speed_file();
   return share;
 }
 

@@ -95,8 +95,9 @@ void print_job_summary(const json& answer, const std::string& file, int cores) {
   fmt::print("  {:<10}{}\n", "images",
              images == 0 ? "none without drones: the job makes traces and figures"
                          : fmt::format("{} in {}", images, counted(answer["shards"], "shard")));
-  fmt::print("  {:<10}about {} on {}\n", "time",
-             duration_text(estimate["cpu_s"].get<double>() / cores), counted(cores, "core"));
+  fmt::print("  {:<10}about {} on {} of {} {}\n", "time",
+             duration_text(estimate["cpu_s"].get<double>() / cores), counted(cores, "core"),
+             estimate["basis"] == "this machine" ? "this" : "the reference", "machine");
   fmt::print("  {:<10}about {}\n", "disk", size_text(estimate["disk_bytes"].get<double>()));
   fmt::print("  {:<10}about {} MiB for each worker process\n", "memory",
              estimate["memory_mib"].get<std::int64_t>());

@@ -190,6 +190,7 @@ std::unique_ptr<Process> make_arrivals(ArrivalPlan plan, Crowd& crowd) {
   for (std::size_t i = 0; i < plan.time_s.size(); ++i) {
     crowd.agents.present[plan.first + i] = 0;
     crowd.agents.awaited[plan.first + i] = 1;
+    if (plan.time_s[i] < plan.closed_from_s) crowd.planned_arrivals_s.push_back(plan.time_s[i]);
   }
   crowd.awaited += plan.time_s.size();
   return std::make_unique<Arrivals>(std::move(plan));

@@ -14,6 +14,7 @@
 #include "jobs/queue/dataset/folder_lock.h"
 #include "jobs/queue/delivery.h"
 #include "jobs/queue/failed_runs.h"
+#include "jobs/queue/machine_speed.h"
 #include "jobs/queue/trace_seal.h"
 
 namespace throng::jobs {
@@ -76,6 +77,7 @@ class Supervision {
       make_frames();
       share_.later_tasks = 0;
       do_task(dataset);
+      if (is_measured_) learn_machine_speed(share_.speed_file, folder_, job_, cpu_s_);
     }
     progress_.shards.clear();
     progress_.pace = {};
@@ -172,6 +174,7 @@ class Supervision {
     speeds_.clear();
     total_speed_.reset();
     report();
+    if (open.size() < tasks.size()) is_measured_ = false;
     if (open.empty()) return;
     const auto on_progress = [&](const Task& task, const TaskProgress& progress) {
       record_progress(task, progress);
@@ -191,6 +194,10 @@ class Supervision {
                                   const Executor::OnProgress& on_progress) {
     std::vector<TaskResult> results = executor_.run(folder_, tasks, on_progress, stop_, share_);
     folder_.remove_leftovers();
+    for (const TaskResult& result : results) {
+      cpu_s_ += result.cpu_s;
+      if (result.cpu_s <= 0 || result.attempts != 1) is_measured_ = false;
+    }
     return results;
   }
 
@@ -340,6 +347,8 @@ class Supervision {
   Share share_;
   JobProgress progress_;
   std::vector<RunFailure> failures_;
+  double cpu_s_ = 0;                    ///< of the tasks so far
+  bool is_measured_ = true;             ///< every task so far was done here, at once
   std::set<int> simulated_;             ///< runs whose simulation was there when a stage began
   std::map<Task, long long> images_;    ///< done, per shard
   std::map<Task, Speedometer> speeds_;  ///< of shards; of a run by the name of its simulation

@@ -169,10 +169,13 @@ class JobEstimate(TypedDict):
     """JobEstimate of the service."""
 
     cpu_s: float
-    """Time of one core with the software renderer, s; right within a factor of about two."""
+    """CPU time of all processes of the job, s."""
     disk_bytes: int
     memory_mib: int
     """Memory of the largest task, MiB."""
+    basis: Literal["this machine", "reference machine"]
+    """The machine that takes cpu_s: this one, as its last jobs took, or before its first job the one that the
+    estimates were made on."""
 
 
 class CameraView(TypedDict):

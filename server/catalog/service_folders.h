@@ -17,6 +17,8 @@ class ServiceFolders {
   ServiceFolders(std::filesystem::path data, std::filesystem::path shipped);
 
   const std::filesystem::path& data() const { return data_; }
+  /// The learned speed of this machine (jobs/queue/machine_speed.h).
+  std::filesystem::path speed_file() const { return data_ / "speed.json"; }
   /// Folder with all scenarios: shipped ones and uploads.
   const std::filesystem::path& scenarios() const { return scenarios_; }
   const std::filesystem::path& shipped() const { return shipped_; }

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
+#include "jobs/queue/machine_speed.h"
 #include "jobs/queue/pinned_library.h"
 #include "server/catalog/api_json.h"
 #include "server/jobs/disk_watch.h"
@@ -48,6 +49,8 @@ jobs::ResolvedJob JobQueue::resolve(std::string_view job_json, const Viewer& vie
 json JobQueue::dry_run(std::string_view job_json, const Viewer& viewer) const {
   json answer = confined_.dry_run(with_cameras(job_json, viewer), folders_.scenarios());
   require_disk(answer.at("estimate").at("disk_bytes").get<std::int64_t>());
+  jobs::fit_to_machine(answer, folders_.speed_file());
+  jobs::warn_of_full_disk(answer, folders_.data(), "the service's disk");
   constexpr const char* kPublish = "/outputs/publish";
   publish_to_.require(parse_json(job_json, "").value(json::json_pointer(kPublish), ""));
   return answer;

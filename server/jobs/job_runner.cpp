@@ -274,6 +274,7 @@ std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
   share.memory_mib = [memory = jobs::TaskMemory(job.spec(), row.load)](const jobs::Task& task) {
     return memory.mib_of(task);
   };
+  share.speed_file = folders_.speed_file();
   return jobs::run_job(folder, job, executor_, on_progress, stop, share);
 }
 

@@ -1,5 +1,7 @@
 #include "spec/estimates/job_cost.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,23 +10,29 @@
 #include <string_view>
 
 #include "spec/estimates/task_memory.h"
+#include "spec/job/environment.h"
 #include "spec/job/plan.h"
 #include "spec/job/render_cost.h"
 #include "spec/job/spec.h"
 
 namespace throng::jobs {
 
+using nlohmann::json;
+
 namespace {
 
 // CPU time beside that of images (scripts/studies/estimates.py measures all of these).
-constexpr double kRunS = 1.3;      ///< simulation and figures: processes, place, crowd
-constexpr double kShardS = 1.1;    ///< driver, character library, place
+constexpr double kRunS = 0.4;      ///< simulation and figures: processes, place
+constexpr double kShardS = 2.9;    ///< driver, character library, place
 constexpr double kDatasetS = 0.2;  ///< of a job: collecting, hashing
-constexpr double kPersonSecondS = 60e-6;
+constexpr double kLoadedPersonS = 0.0001;
+constexpr double kSimulatedSecondS = 0.032;
+constexpr double kPersonSecondS = 28e-6;          ///< of a person who is present, simulated
+constexpr double kMeasuredPersonSecondS = 35e-6;  ///< figures look at all people at all times
 constexpr double kDroneSecondS = 0.01;
-constexpr double kLoadedPersonS = 0.0006;
-constexpr double kImageFactor = 1.6;  ///< labels and files beside the image
-constexpr double kLabeledPersonS = 0.0006;
+constexpr double kImageS = 0.07;        ///< of an image, however small
+constexpr double kImageFactor = 1.75;   ///< labels and files beside the image
+constexpr double kCloudsFactor = 1.25;  ///< light from everywhere, reflections on wet ground
 constexpr double kPreviewMegapixelS = 0.05;
 
 // Bytes of the job's folder, in which labels are twice: in the dataset and in the shards' outputs.
@@ -97,13 +105,18 @@ double truth_bytes(const JobSpec& job, bool is_moving, double pixels, double peo
   return bytes;
 }
 
+double weather_factor(const JobSpec& job, const RunPlan& run) {
+  const render::Weather weather = environment_of_run(job.environment, run.seed).light.weather;
+  const bool is_cloudy = weather == render::Weather::overcast || weather == render::Weather::rain;
+  return is_cloudy ? kCloudsFactor : 1;
+}
+
 void add_camera(const JobSpec& job, const camera::CameraSpec& camera, bool is_moving, double people,
-                double shards, JobCost& cost) {
+                double shards, double image_factor, JobCost& cost) {
   const auto frames = static_cast<double>(job.frames_per_camera());
   const double previews = std::min<double>(frames, job.outputs.previews);
   const double pixels = static_cast<double>(camera.width) * camera.height;
-  cost.cpu_s += frames * (kImageFactor * image_cpu_s(job.quality, camera, people) +
-                          people * kLabeledPersonS) +
+  cost.cpu_s += frames * (kImageS + image_factor * image_cpu_s(job.quality, camera, people)) +
                 shards * camera_setup_cpu_s(camera) +
                 previews * kPreviewMegapixelS * pixels / kPixelsPerMegapixel;
   cost.disk_bytes +=
@@ -118,7 +131,8 @@ void add_run(const JobSpec& job, const RunPlan& run, const ExpectedRun& expected
   const auto drones = static_cast<double>(job.drones.size());
   const double step_bytes = expected.is_fled ? kFleeingPersonStepBytes : kTracePersonStepBytes;
   cost.cpu_s += kRunS + static_cast<double>(expected.people) * kLoadedPersonS +
-                expected.at_a_time * duration_s * kPersonSecondS +
+                duration_s * (kSimulatedSecondS + expected.at_a_time * kPersonSecondS +
+                              static_cast<double>(expected.people) * kMeasuredPersonSecondS) +
                 drones * duration_s * kDroneSecondS + shards * kShardS;
   cost.disk_bytes += static_cast<std::int64_t>(
       kRunBytes + expected.at_a_time * (kPersonBytes + duration_s * kStepsPerSecond * step_bytes));
@@ -126,7 +140,8 @@ void add_run(const JobSpec& job, const RunPlan& run, const ExpectedRun& expected
     const DroneSpec& drone = job.drones[i];
     add_camera(job, camera_of_run(drone.camera, run.seed, camera_pointer(i)),
                drone.mission.policy != "hover",
-               expected.in_view.at(i).value_or(kShareInView * expected.at_a_time), shards, cost);
+               expected.in_view.at(i).value_or(kShareInView * expected.at_a_time), shards,
+               kImageFactor * weather_factor(job, run), cost);
   }
   if (has_kind(job, "fields")) {
     double cells_m2 = 1 / (kFieldCellM * kFieldCellM);
@@ -165,10 +180,34 @@ JobCost estimate_cost(const JobSpec& job, SceneLoad load) {
   return estimate_cost(job, of_runs, load.models_mib);
 }
 
-nlohmann::json estimate_json(const JobCost& cost) {
-  return {{"cpu_s", std::round(10 * cost.cpu_s) / 10},
+double rounded_cpu_s(double cpu_s) { return std::round(10 * cpu_s) / 10; }
+
+json estimate_json(const JobCost& cost) {
+  return {{"cpu_s", rounded_cpu_s(cost.cpu_s)},
           {"disk_bytes", cost.disk_bytes},
-          {"memory_mib", cost.memory_mib}};
+          {"memory_mib", cost.memory_mib},
+          {"basis", "reference machine"}};
+}
+
+json warning_json(const Problem& warning) {
+  return {{"pointer", warning.where},
+          {"found", warning.found},
+          {"expected", warning.expected},
+          {"message", Problem{"", warning.where, warning.found, warning.expected}.text()}};
+}
+
+void warn_of_full_disk(json& answer, const std::filesystem::path& folder, const std::string& disk) {
+  constexpr double kBytesPerGb = 1e9;
+  const auto planned = answer.at("estimate").at("disk_bytes").get<double>();
+  std::error_code error;
+  const auto free = static_cast<double>(std::filesystem::space(folder, error).available);
+  if (error || planned <= free) return;
+  answer.at("warnings")
+      .push_back(warning_json(
+          {"", "/runs", fmt::format("a job of about {:.3g} GB", planned / kBytesPerGb),
+           fmt::format(
+               "at most the {:.3g} GB that are free on {}: fewer runs, images or annotations",
+               free / kBytesPerGb, disk)}));
 }
 
 }  // namespace throng::jobs

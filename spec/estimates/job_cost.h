@@ -3,16 +3,20 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "spec/job/job_spec.h"
 #include "spec/job/resolved_job.h"
 
 namespace throng::jobs {
 
-/// Estimates, correct within a factor of about two on a processor like that of docs/rendering.md.
+/// Estimates; the time is that of the reference machine, a processor like that of
+/// docs/rendering.md.
 struct JobCost {
   int runs = 0;
   std::int64_t shards = 0;
@@ -40,8 +44,19 @@ JobCost estimate_cost(const JobSpec& job, SceneLoad load);
 JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected,
                       std::int64_t models_mib);
 
-/// The members that are estimates, as {"cpu_s", "disk_bytes", "memory_mib"}. The other members are
-/// exact, so answers state them separately.
+/// CPU time as answers have it, in tenths of a second.
+double rounded_cpu_s(double cpu_s);
+
+/// The members that are estimates, as {"cpu_s", "disk_bytes", "memory_mib", "basis"}; the time is
+/// that of the reference machine. The other members are exact, so answers state them separately.
 nlohmann::json estimate_json(const JobCost& cost);
+
+/// A warning as answers have it: {"pointer", "found", "expected", "message"}.
+nlohmann::json warning_json(const Problem& warning);
+
+/// Adds a warning to the answer of a dry run whose job does not fit on the free disk of a folder,
+/// which messages call `disk`.
+void warn_of_full_disk(nlohmann::json& answer, const std::filesystem::path& folder,
+                       const std::string& disk);
 
 }  // namespace throng::jobs

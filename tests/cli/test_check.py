@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -19,6 +20,8 @@ class Check(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+        # No test has anything from another's jobs.
+        os.environ["XDG_CACHE_HOME"] = str(self.folder / "cache")
 
     def write(self, job):
         file = self.folder / "my.job.json"
@@ -117,6 +120,68 @@ class Check(unittest.TestCase):
         self.assertEqual(len(images), answer["frames"])
         size = sum(file.stat().st_size for file in files)
         self.assertLess(abs(size / answer["estimate"]["disk_bytes"] - 1), 1, (size, answer["estimate"]))
+
+    def test_people_are_those_of_a_run(self):
+        """Those there at the start and those who come until the end."""
+        for number, (scenario, to_s, fields) in enumerate(
+            (
+                ("station/everyday", 40, {}),
+                ("stadium_exit/everyday", 5, {}),
+                ("stadium_exit/everyday", 20, {}),
+                ("city_square/everyday", 30, {"runs": 2}),
+                ("city_square/everyday", 30, {"crowd": {"agents": 120}}),
+            )
+        ):
+            job = {"scenario": scenario, "drones": [], "capture": {"to_s": to_s, "rate_hz": 0.2}, **fields}
+            planned = self.answer(**job)["people"]
+            out = self.folder / f"out{number}"
+            subprocess.run([THRONG, "run", self.write(job), "-o", out], check=True, capture_output=True, timeout=300)
+            runs = json.loads((out / "dataset/metrics.json").read_text())["runs"]
+            simulated = sum(run["people"] for run in runs) / len(runs)
+            # People that are sampled come sooner or later than others.
+            self.assertAlmostEqual(planned / simulated, 1, delta=0.1 if "crowd" in fields else 0.01, msg=scenario)
+
+    def test_a_job_larger_than_the_free_disk(self):
+        camera = {"width": 7680, "height": 4320}
+        drones = [{"id": "d", "start": [0, -3, 15], "camera": camera}]
+        capture = {"to_s": 600, "rate_hz": 30}
+        outputs = {"annotations": ["coco", "depth", "flow", "normals", "instances"]}
+        job = {"scenario": "city_square/everyday", "drones": drones, "capture": capture, "outputs": outputs}
+        answer = self.answer(**job, runs=100)
+        if answer["estimate"]["disk_bytes"] <= shutil.disk_usage(".").free:
+            self.skipTest("a very large disk")
+        warned = [warning for warning in answer["warnings"] if "free on the disk of" in warning["expected"]]
+        self.assertEqual([warning["pointer"] for warning in warned], ["/runs"])
+        self.assertRegex(
+            self.check({**job, "runs": 100}).stdout, "warning: .*: found a job of about .* GB, expected at most"
+        )
+        self.assertNotIn("/runs", self.warned())
+
+    def test_the_time_is_learned_from_jobs_and_no_dataset_depends_on_it(self):
+        job = self.write({"scenario": "city_square/everyday", "drones": [], "capture": {"to_s": 5, "rate_hz": 1}})
+        learned = self.folder / "cache/throng/speed.json"
+
+        def done(*command):
+            run = {"capture_output": True, "text": True, "timeout": 300, "check": True}
+            return subprocess.run([THRONG, *command], **run).stdout
+
+        def estimate():
+            return json.loads(done("check", "--json", job))["estimate"]
+
+        before = estimate()
+        self.assertEqual(before["basis"], "reference machine")
+        self.assertRegex(done("check", job), r"\n  time +about .* of the reference machine\n")
+        done("run", job, "-o", self.folder / "out0")
+        factor = json.loads(learned.read_text())["factor"]
+        self.assertEqual(estimate()["basis"], "this machine")
+        self.assertAlmostEqual(estimate()["cpu_s"], factor * before["cpu_s"], delta=0.051 * (1 + factor))
+        self.assertRegex(done("check", job), r"\n  time +about .* of this machine\n")
+        learned.write_text('{"factor": 7, "jobs": 8}')
+        done("run", job, "-o", self.folder / "out1")
+        manifests = [(self.folder / f"out{i}/dataset/manifest.json").read_bytes() for i in range(2)]
+        self.assertEqual(manifests[0], manifests[1])
+        learned.write_text("[[[")
+        self.assertEqual(estimate(), before)
 
     def test_a_job_for_figures_needs_no_drone(self):
         answer = self.answer(drones=[])
@@ -270,7 +335,7 @@ class Check(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"my.job.json: valid, 1 warning\n")
         self.assertRegex(done.stdout, r"\n  images +\d+ in \d+ shards?\n")
-        self.assertRegex(done.stdout, r"\n  time +about \d+ (s|min) on \d+ cores?\n")
+        self.assertRegex(done.stdout, r"\n  time +about \d+ (s|min) on \d+ cores? of (this|the reference) machine\n")
         self.assertRegex(done.stdout, r"\n  disk +about [\d.]+ [kMG]B\n")
         self.assertRegex(done.stdout, r"shows up to \d+ % of the area")
         self.assertIn("warning: ", done.stdout)

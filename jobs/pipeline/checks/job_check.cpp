@@ -84,17 +84,27 @@ struct ScenarioCheck {
   std::vector<Problem> warnings;
 };
 
-/// People who come while the run lasts: sources of blueprints bring people for ten minutes if
-/// nothing else is said.
-double expected_arrivals(double all, double at_start, double duration_s) {
-  constexpr double kArrivalsS = 600;
-  return std::max(0.0, all - at_start) * std::min(1.0, duration_s / kArrivalsS);
+/// People who come before the end of a run.
+struct ExpectedArrivals {
+  double people = 0;
+  double at_a_time = 0;  ///< mean number of them who are present, as if nobody left
+};
+
+ExpectedArrivals expected_arrivals(const crowd::Simulation& simulation, double duration_s) {
+  ExpectedArrivals expected;
+  for (const double time_s : simulation.planned_arrivals_s()) {
+    if (time_s >= duration_s) continue;
+    ++expected.people;
+    expected.at_a_time += 1 - time_s / duration_s;
+  }
+  return expected;
 }
 
 ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario, int run) {
   ScenarioCheck checked;
   StartingCrowd crowd;
   double shown_people = 0;  // of a recording
+  ExpectedArrivals arrivals;
   if (job.recorded) {
     std::vector<Problem> notes;
     const world::Trace recording = read_recording(*job.recorded, &notes);
@@ -109,6 +119,7 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
         scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
     checked.expected.people = static_cast<std::int64_t>(simulation.agent_count() - hazards.size());
     crowd = starting_crowd(job, simulation, hazards);
+    arrivals = expected_arrivals(simulation, job.capture.end_s());
   }
   const world::Rectangle& ground = scenario.ground;
   checked.expected.ground_m2 = (ground.max - ground.min).prod();
@@ -120,14 +131,11 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
   const auto places = static_cast<double>(crowd.places.size());
   const double at_start =
       taking_part * places / static_cast<double>(std::max<std::size_t>(1, crowd.times));
-  const auto everybody = static_cast<double>(checked.expected.people);
-  // At one time there are as many recorded people as at another; the others come and leave.
-  const double arrivals =
-      job.recorded ? 0 : expected_arrivals(everybody, at_start, job.capture.end_s());
-  checked.taking_part = job.recorded ? taking_part * shown_people : at_start + arrivals;
+  checked.taking_part =
+      job.recorded ? taking_part * shown_people : at_start + taking_part * arrivals.people;
   // Others leave meanwhile.
-  constexpr double kShareThere = 0.45;
-  checked.expected.at_a_time = at_start + kShareThere * arrivals;
+  constexpr double kShareThere = 0.9;
+  checked.expected.at_a_time = at_start + kShareThere * taking_part * arrivals.at_a_time;
   const double scale = checked.expected.at_a_time / std::max(1.0, places);
   for (std::optional<CameraView>& view : views_of_run(job, scenario, crowd, run)) {
     checked.expected.in_view.push_back(view ? std::optional(scale * view->mean_people)
@@ -183,13 +191,7 @@ nlohmann::json to_json(const CheckedJob& checked) {
   nlohmann::json views = nlohmann::json::array();
   for (const CameraView& view : checked.views) views.push_back(to_json(view));
   nlohmann::json warnings = nlohmann::json::array();
-  for (const Problem& warning : checked.warnings) {
-    warnings.push_back(
-        {{"pointer", warning.where},
-         {"found", warning.found},
-         {"expected", warning.expected},
-         {"message", Problem{"", warning.where, warning.found, warning.expected}.text()}});
-  }
+  for (const Problem& warning : checked.warnings) warnings.push_back(warning_json(warning));
   return {{"runs", checked.cost.runs},
           {"shards", checked.cost.shards},
           {"frames", checked.cost.images},

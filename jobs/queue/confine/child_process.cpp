@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -80,6 +81,11 @@ std::vector<std::string> changed_environment(ChildProcess::Variables variables) 
     environment.push_back(fmt::format("{}={}", name, value));
   }
   return environment;
+}
+
+double seconds(const timeval& time) {
+  constexpr double kMicrosecondS = 1e-6;
+  return static_cast<double>(time.tv_sec) + kMicrosecondS * static_cast<double>(time.tv_usec);
 }
 
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
@@ -183,11 +189,13 @@ ExitStatus ChildProcess::wait() {
   }
   signal_group(SIGKILL);
   int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  rusage used{};
+  while (::wait4(pid_, &status, 0, &used) < 0 && errno == EINTR) {
   }
   pid_ = -1;
-  if (WIFSIGNALED(status)) return {0, WTERMSIG(status)};
-  return {WEXITSTATUS(status), 0};
+  const double cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
+  if (WIFSIGNALED(status)) return {0, WTERMSIG(status), cpu_s};
+  return {WEXITSTATUS(status), 0, cpu_s};
 }
 
 void ChildProcess::signal_group(int signal) const {

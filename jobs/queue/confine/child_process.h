@@ -13,7 +13,8 @@ namespace throng::jobs {
 /// How a process ended: with an exit code, or by a signal.
 struct ExitStatus {
   int code = 0;
-  int signal = 0;  ///< 0: none
+  int signal = 0;    ///< 0: none
+  double cpu_s = 0;  ///< of the process, and of its children that it waited for
 };
 
 /// Owns one child process. Use from one thread at a time.

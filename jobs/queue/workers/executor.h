@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <stop_token>
@@ -37,6 +38,7 @@ struct TaskResult {
   int attempts = 0;
   std::string message;            ///< what went wrong, for people
   std::vector<Problem> problems;  ///< of an input error
+  double cpu_s = 0;               ///< CPU time of the attempt that succeeded; 0: unknown
 };
 
 /// Progress of one task: `done` of `total`, in the task's own unit (frames, seconds).
@@ -65,6 +67,9 @@ struct Share {
   /// Estimated memory of a task in MiB; 0: unknown.
   std::function<std::int64_t(const Task&)> memory_mib = [](const Task&) { return 0; };
   std::size_t later_tasks = 0;  ///< number of the job's tasks after this batch
+  /// File in which run_job() keeps what it learns of this machine (jobs/queue/machine_speed.h); ""
+  /// for none.
+  std::filesystem::path speed_file = {};
   /// Receives the reason why no task of the job runs although some are ready, then "" once one
   /// does.
   std::function<void(const std::string& reason)> on_wait = [](const std::string&) {};

@@ -216,7 +216,10 @@ class Batch {
                               to_string(is_cancelled ? Outcome::cancelled : result.outcome),
                               took.count());
       }
-      if (result.outcome == Outcome::succeeded) continue;
+      if (result.outcome == Outcome::succeeded) {
+        results_[worker->task].cpu_s = status.cpu_s;
+        continue;
+      }
       if (is_cancelled) {
         results_[worker->task].outcome = Outcome::cancelled;
       } else {

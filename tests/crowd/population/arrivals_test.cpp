@@ -73,6 +73,20 @@ TEST(Arrivals, WaitForRoom) {
   }
 }
 
+TEST(Arrivals, AreKnownBeforeTheyCome) {
+  const Simulation regular = test::load(scene_with_arrivals(kEverySecond), kToTheSink);
+  ASSERT_EQ(regular.planned_arrivals_s().size(), 20U);
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_NEAR(regular.planned_arrivals_s()[i], static_cast<double>(i), 1.01);
+  }
+  const Simulation table = test::load(
+      scene_with_arrivals(
+          R"(<Arrivals type="table"><At time="1" count="3"/><At time="70" count="2"/></Arrivals>)"),
+      kToTheSink);
+  EXPECT_THAT(table.planned_arrivals_s(), testing::UnorderedElementsAre(1, 1, 1, 70, 70));
+  EXPECT_TRUE(test::load(scene_with_arrivals(""), kToTheSink).planned_arrivals_s().empty());
+}
+
 TEST(Arrivals, TheNameMostAliveIsReadWithAWarning) {
   const std::string old_name =
       scene_with_arrivals(R"(<Arrivals type="rate" per_second="1" end="20" most_alive="3"/>)");

@@ -79,6 +79,9 @@ class FakeExecutor : public Executor {
     if (task.kind == Task::Kind::publish) return write_delivery(folder, {"s3://data/set", 2, 20});
     StagingFolder staging(output);
     write_file_atomically(staging.path() / "made.json", "{}");
+    write_file_atomically(
+        staging.path() / "record.json",
+        R"({"files": [], "metrics": {"people": 2}, "images": 1, "annotations": 2})");
     if (task.kind == Task::Kind::collect) {
       const std::string metrics = R"({"runs":[]})";
       write_file_atomically(staging.path() / "metrics.json", metrics);

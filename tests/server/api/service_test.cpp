@@ -371,6 +371,39 @@ TEST_F(ServiceTest, AJobLargerThanTheDiskIsRefused) {
   EXPECT_TRUE(service.queue().list({}).empty());
 }
 
+// Not refused, as others may end and leave room.
+TEST_F(ServiceTest, ADryRunWarnsOfAJobLargerThanTheFreeDisk) {
+  Service service(options(), executor);
+  const auto dry_run = [&](std::int64_t runs) {
+    json job = json::parse(R"({"scenario": "yard", "capture": {"to_s": 10, "rate_hz": 10},
+        "drones": [{"id": "d1", "start": [0, 0, 20], "camera": {"width": 7680, "height": 4320}}],
+        "outputs": {"annotations": ["coco", "depth", "flow"]}})");
+    job["runs"] = runs;
+    return service.queue().dry_run(job.dump());
+  };
+  const json small = dry_run(1);
+  EXPECT_THAT(small["warnings"].dump(), Not(HasSubstr("free on the service's disk")));
+  const auto run_bytes = small["estimate"]["disk_bytes"].get<std::int64_t>();
+  const DiskState disk = measure_disk(service.folders().data());
+  const std::int64_t runs = disk.free_bytes / run_bytes + 2;
+  if (runs > 1000 || (runs + 1) * run_bytes > disk.total_bytes) GTEST_SKIP() << "an empty disk";
+  EXPECT_THAT(dry_run(runs)["warnings"].dump(), HasSubstr("free on the service's disk"));
+}
+
+TEST_F(ServiceTest, JobsTeachTheSpeedOfTheMachine) {
+  executor.before_in = [](const jobs::JobFolder&, const Task&) {
+    return TaskResult{Outcome::succeeded, 1, "", {}, 1e6};
+  };
+  Service service(options(), executor);
+  const json before = service.queue().dry_run(kJob)["estimate"];
+  EXPECT_EQ(before["basis"], "reference machine");
+  const JobRow row = service.queue().submit({kJob}).row;
+  ASSERT_TRUE(reaches(service, row.id, JobState::succeeded));
+  const json after = service.queue().dry_run(kJob)["estimate"];
+  EXPECT_EQ(after["basis"], "this machine");
+  EXPECT_NEAR(after["cpu_s"].get<double>(), 8 * before["cpu_s"].get<double>(), 0.5);
+}
+
 TEST_F(ServiceTest, AReadOnlyOrFullDiskLetsTheQueueRestWithoutALimitToo) {
   std::atomic<bool> is_read_only = false;
   std::atomic<std::int64_t> free = 1LL << 30;

@@ -1,6 +1,10 @@
 #include "spec/estimates/task_memory.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "spec/estimates/job_cost.h"
 #include "spec/job/spec.h"
@@ -74,6 +78,27 @@ TEST(TaskMemory, PeopleCount) {
   const TaskMemory many(make_job("{}", R"(, "crowd": {"agents": 1000000})"));
   EXPECT_GT(many.max_mib(), few + 5000);
   EXPECT_GT(many.mib_of({Task::Kind::simulate}), 5000);
+}
+
+TEST(JobCost, AJobThatDoesNotFitOnTheFreeDiskIsWarnedOf) {
+  const auto warnings = [](std::int64_t disk_bytes, const std::filesystem::path& folder) {
+    nlohmann::json answer = {{"estimate", estimate_json({.disk_bytes = disk_bytes})},
+                             {"warnings", nlohmann::json::array()}};
+    warn_of_full_disk(answer, folder, "this disk");
+    return answer["warnings"];
+  };
+  const std::filesystem::path here = std::filesystem::temp_directory_path();
+  EXPECT_TRUE(warnings(1, here).empty());
+  constexpr std::int64_t kExabyte = 1'000'000'000'000'000'000;
+  const nlohmann::json warned = warnings(kExabyte, here);
+  ASSERT_EQ(warned.size(), 1U);
+  EXPECT_EQ(warned[0]["pointer"], "/runs");
+  EXPECT_EQ(warned[0]["found"], "a job of about 1e+09 GB");
+  EXPECT_THAT(warned[0]["expected"].get<std::string>(),
+              testing::AllOf(testing::StartsWith("at most the "),
+                             testing::HasSubstr(" GB that are free on this disk")));
+  // A disk that cannot be measured gives no warning.
+  EXPECT_TRUE(warnings(kExabyte, here / "no such folder").empty());
 }
 
 }  // namespace

@@ -125,11 +125,13 @@ export interface DryRun {
 }
 
 export interface JobEstimate {
-  /** Time of one core with the software renderer, s; right within a factor of about two. */
+  /** CPU time of all processes of the job, s. */
   cpu_s: number;
   disk_bytes: number;
   /** Memory of the largest task, MiB. */
   memory_mib: number;
+  /** The machine that takes cpu_s: this one, as its last jobs took, or before its first job the one that the estimates were made on. */
+  basis: "this machine" | "reference machine";
 }
 
 export interface CameraView {

@@ -46,10 +46,10 @@ function Forecast({ plan }: { plan: DryRun }) {
   const done = (list.value?.jobs ?? []).filter((job) => (job.progress.frames_total ?? 0) > 0);
   const total = done.reduce((sum, job) => sum + (job.progress.frames_total ?? 0), 0);
   const seconds = done.reduce((sum, job) => sum + secondsBetween(job.started_at, job.ended_at), 0);
-  const { cpu_s, disk_bytes } = plan.estimate;
+  const { cpu_s, disk_bytes, basis } = plan.estimate;
   return (
     <span class="quiet-text">
-      about {durationText(Math.max(1, cpu_s))} of one core and {bytesText(disk_bytes)} of disk
+      about {durationText(Math.max(1, cpu_s))} of one core of {basis === "this machine" ? "this" : "the reference"} machine and {bytesText(disk_bytes)} of disk
       {total > 0 &&
         `; ${durationText(Math.max(1, (plan.frames * seconds) / total))} at the pace of ${done.length === 1 ? "the last job" : `the last ${done.length} jobs`}`}
     </span>
