@@ -53,7 +53,7 @@ ExpectedRun simulated_run(const JobFolder& folder, const JobSpec& job, int run) 
   const json measured = read_record(folder.output_of({Task::Kind::measure, run}));
   ExpectedRun expected;
   expected.people = measured.at("metrics").at("people").get<std::int64_t>();
-  expected.at_a_time = static_cast<double>(expected.people);
+  expected.at_a_time = expected.taking_part = static_cast<double>(expected.people);
   double images = 0;
   double labels = 0;
   for (const Shard& shard : plan_shards(job, run)) {

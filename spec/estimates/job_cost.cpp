@@ -26,7 +26,7 @@ constexpr double kRunS = 0.4;      ///< simulation and figures: processes, place
 constexpr double kShardS = 2.9;    ///< driver, character library, place
 constexpr double kDatasetS = 0.2;  ///< of a job: collecting, hashing
 constexpr double kLoadedPersonS = 0.0001;
-constexpr double kSimulatedSecondS = 0.032;
+constexpr double kSimulatedSecondS = 0.027;
 constexpr double kPersonSecondS = 28e-6;          ///< of a person who is present, simulated
 constexpr double kMeasuredPersonSecondS = 35e-6;  ///< figures look at all people at all times
 constexpr double kDroneSecondS = 0.01;
@@ -47,6 +47,7 @@ constexpr double kPersonLabelBytes = 1450;    ///< of a person in an image
 constexpr double kFormatPersonBytes = 130;    ///< of a label in another format
 constexpr double kDensityPersonBytes = 2700;  ///< of a head at kDensitySigmaPx
 constexpr double kDensitySigmaPx = 4;
+constexpr double kDensityShare = 0.5;  ///< of an image that a crowd fills, where heads overlap
 constexpr double kJpegBytesPerPixel = 0.42;  ///< at kJpegQuality and kJpegMegapixels
 constexpr double kJpegMegapixels = 0.92;
 constexpr double kJpegExponent = -0.15;  ///< larger images hold less in a pixel
@@ -100,7 +101,8 @@ double truth_bytes(const JobSpec& job, bool is_moving, double pixels, double peo
   if (has_kind(job, "coco")) bytes += kImageRecordBytes + people * kPersonLabelBytes;
   if (has_kind(job, "density")) {
     const double scale = job.outputs.density_sigma_px / kDensitySigmaPx;
-    bytes += std::min(people * kDensityPersonBytes * scale * scale, pixels * sizeof(float));
+    const double full = kDensityShare * pixels * sizeof(float);
+    bytes += full * -std::expm1(-people * kDensityPersonBytes * scale * scale / full);
   }
   return bytes;
 }
@@ -132,7 +134,7 @@ void add_run(const JobSpec& job, const RunPlan& run, const ExpectedRun& expected
   const double step_bytes = expected.is_fled ? kFleeingPersonStepBytes : kTracePersonStepBytes;
   cost.cpu_s += kRunS + static_cast<double>(expected.people) * kLoadedPersonS +
                 duration_s * (kSimulatedSecondS + expected.at_a_time * kPersonSecondS +
-                              static_cast<double>(expected.people) * kMeasuredPersonSecondS) +
+                              expected.taking_part * kMeasuredPersonSecondS) +
                 drones * duration_s * kDroneSecondS + shards * kShardS;
   cost.disk_bytes += static_cast<std::int64_t>(
       kRunBytes + expected.at_a_time * (kPersonBytes + duration_s * kStepsPerSecond * step_bytes));
@@ -175,7 +177,10 @@ JobCost estimate_cost(const JobSpec& job, SceneLoad load) {
   for (int run = 0; run < job.runs; ++run) {
     const std::int64_t all = job_of_run(job, run).agents.value_or(load.people);
     const auto count = static_cast<double>(all);
-    of_runs.push_back({all, count, std::vector<std::optional<double>>(job.drones.size())});
+    of_runs.push_back({.people = all,
+                       .at_a_time = count,
+                       .in_view = std::vector<std::optional<double>>(job.drones.size()),
+                       .taking_part = count});
   }
   return estimate_cost(job, of_runs, load.models_mib);
 }

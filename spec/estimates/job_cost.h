@@ -33,8 +33,9 @@ struct ExpectedRun {
   /// Number of people in an image of each drone's camera; nothing if the drone's path depends on
   /// the people.
   std::vector<std::optional<double>> in_view;
-  double ground_m2 = 0;  ///< area of the scenario's ground
-  bool is_fled = false;  ///< people flee from a hazard: their positions compress less well
+  double ground_m2 = 0;    ///< area of the scenario's ground
+  double taking_part = 0;  ///< people who are there at the start or come before the end
+  bool is_fled = false;    ///< people flee from a hazard: their positions compress less well
 };
 
 /// Estimates the cost as if all people were present all the time and half of them in view. `load`

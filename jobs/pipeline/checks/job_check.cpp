@@ -79,7 +79,6 @@ StartingCrowd starting_crowd(const JobSpec& job, const crowd::Simulation& simula
 /// A job in one of its scenarios.
 struct ScenarioCheck {
   ExpectedRun expected;
-  double taking_part = 0;  ///< people at the start, and those who come while it lasts
   std::vector<CameraView> views;
   std::vector<Problem> warnings;
 };
@@ -131,7 +130,7 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
   const auto places = static_cast<double>(crowd.places.size());
   const double at_start =
       taking_part * places / static_cast<double>(std::max<std::size_t>(1, crowd.times));
-  checked.taking_part =
+  checked.expected.taking_part =
       job.recorded ? taking_part * shown_people : at_start + taking_part * arrivals.people;
   // Others leave meanwhile.
   constexpr double kShareThere = 0.9;
@@ -170,7 +169,7 @@ CheckedJob check_job(std::string_view text, const std::string& source,
     ScenarioCheck place = check_scenario(one, load_job_scenario(one, scenarios, source), run);
     const auto runs =
         std::count(shares.begin(), shares.end(), shares[static_cast<std::size_t>(run)]);
-    people_of_runs += static_cast<double>(runs) * place.taking_part;
+    people_of_runs += static_cast<double>(runs) * place.expected.taking_part;
     of_shares[shares[static_cast<std::size_t>(run)]] = place.expected;
     for (Problem& warning : place.warnings) {
       if (!job.mix.empty()) warning.found += " in " + one.scenario;

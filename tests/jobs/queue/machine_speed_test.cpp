@@ -35,7 +35,11 @@ class MachineSpeedTest : public testing::Test {
   /// Does a new job that takes `factor` times its estimate. FakeExecutor says that two people took
   /// part, whom all images show.
   void do_job_with_factor(double factor) {
-    do_job(factor * estimate_cost(job.spec(), {{2, 2, {2.0}}}, 0).cpu_s / kTasks);
+    do_job(factor *
+           estimate_cost(job.spec(),
+                         {{.people = 2, .at_a_time = 2, .in_view = {2.0}, .taking_part = 2}}, 0)
+               .cpu_s /
+           kTasks);
   }
 
   /// The estimate in the answer of a dry run.

@@ -49,7 +49,8 @@ function Forecast({ plan }: { plan: DryRun }) {
   const { cpu_s, disk_bytes, basis } = plan.estimate;
   return (
     <span class="quiet-text">
-      about {durationText(Math.max(1, cpu_s))} of one core of {basis === "this machine" ? "this" : "the reference"} machine and {bytesText(disk_bytes)} of disk
+      about {durationText(Math.max(1, cpu_s))} of one core of {basis === "this machine" ? "this" : "the reference"} machine and{" "}
+      {bytesText(disk_bytes)} of disk
       {total > 0 &&
         `; ${durationText(Math.max(1, (plan.frames * seconds) / total))} at the pace of ${done.length === 1 ? "the last job" : `the last ${done.length} jobs`}`}
     </span>
