@@ -182,7 +182,7 @@ struct SteppedRun::State {
         flight(scenario.buildings, drones, crowd.dt_s(), spec.physics_dt_s, log(),
                {spec.wind, spec.seed}),
         moving_goals(goals_moved_by(drones)),
-        recorder(scenario, roles, moving_goals),
+        recorder(scenario, roles, moving_goals, spec.seed),
         guidance(scenario, roles, drones, spec.seed, crowd.dt_s()),
         props(std::move(watch)) {}
 

@@ -79,8 +79,8 @@ Moment moment_of_passer_by(Random& random) {
   const double speed_mps = std::clamp(random.normal(1.3, 0.22), 0.6, 1.9);
   const double draw = random.uniform();
   if (draw < 0.05) return {"phone", 0, 0.5 + 0.5 * share};
-  if (draw < 0.09) return {"look_around", 0, share};
-  if (draw < 0.17) return {"idle", 0, share};
+  if (draw < 0.13) return {"idle", 0, share};
+  if (draw < 0.17) return {"idle_left", 0, share};
   if (draw < 0.21) return {"run", random.uniform(2.4, 3.6), share};
   return {"walk", speed_mps, share};
 }
@@ -200,8 +200,8 @@ std::vector<SheetRow> motion_rows(const Population& population, const SheetOptio
       rows.back().shots.push_back(motion_shot(population, look, moment, kSide, label, width));
     }
   }
-  constexpr std::array<Moment, 15> kPoses = {{{"idle", 0, 0.3},
-                                              {"look_around", 0, 0.25},
+  constexpr std::array<Moment, 15> kPoses = {{{"idle", 0, 0.95},
+                                              {"idle_left", 0, 0.4},
                                               {"phone", 0, 1},
                                               {"look_up", 0, 1},
                                               {"look_up_left", 0, 1},

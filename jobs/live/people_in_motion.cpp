@@ -59,9 +59,7 @@ skinning::PoseBlend PeopleInMotion::pose_of(std::size_t agent, double meters, do
     return skinning::blend_frame(*fall, share * (fall->frames - 1));
   }
   if (speed_mps < skinning::kStandingSpeed) {
-    const skinning::Clip& idle = clips_.nearest("idle");
-    return skinning::blend_frame(
-        idle, (look.phase_offset + time_s / skinning::kIdlePeriod) * idle.frames);
+    return skinning::standing_pose(clips_, look.phase_offset, time_s);
   }
   const double stature_m = character.gait_stature_m();
   const double stride_m = skinning::stride_length_m(speed_mps, stature_m, character.age_years) *

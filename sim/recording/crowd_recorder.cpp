@@ -7,7 +7,7 @@ namespace throng::sim {
 using world::AgentRole;
 
 CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<AgentRole>& roles,
-                             const std::vector<world::GoalRef>& moving_goals)
+                             const std::vector<world::GoalRef>& moving_goals, std::uint64_t seed)
     : scenario_(scenario),
       roles_(roles),
       moving_goals_(moving_goals),
@@ -15,7 +15,8 @@ CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<
       led_(roles.size(), false),
       was_inside_(roles.size(), false),
       escaped_(roles.size(), false),
-      down_(roles.size(), false) {}
+      down_(roles.size(), false),
+      turns_(seed) {}
 
 // A person heading for an exit intends it, also on the path from there to safety. A follower of a
 // drone intends no exit; after the release it takes the exit at hand.
@@ -60,8 +61,14 @@ void CrowdRecorder::record(const CrowdSource& crowd, double time_s, RunObserver&
   for (std::size_t i = 0; i < led_.size(); ++i) {
     if (led_[i]) step.flags[i] |= world::kFollowing;
   }
-  if (down_states_.empty()) down_states_ = crowd.header(0).lying_states();
+  if (down_states_.empty()) {
+    const world::TraceHeader header = crowd.header(0);
+    down_states_ = header.lying_states();
+    // Recorded people face where the recording says, Menge's where Menge does.
+    turns_people_ = crowd.has_intents() && header.crowd.compat != "menge";
+  }
   for (std::size_t i = 0; i < down_.size(); ++i) down_[i] = down_states_[step.state[i]];
+  if (turns_people_) turns_.turn(step, roles_);
   observer.step(step);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (roles_[i] != AgentRole::person || escaped_[i] || !was_inside_[i]) continue;

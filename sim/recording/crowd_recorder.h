@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/people/crowd_source.h"
+#include "sim/recording/standing_turns.h"
 #include "sim/run_observer.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -17,7 +18,7 @@ class CrowdRecorder {
  public:
   /// `moving_goals` are the goals that drones move. All arguments must outlive the recorder.
   CrowdRecorder(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
-                const std::vector<world::GoalRef>& moving_goals);
+                const std::vector<world::GoalRef>& moving_goals, std::uint64_t seed);
 
   /// Reports the current state of the crowd, and an event for each agent that has just escaped.
   void record(const CrowdSource& crowd, double time_s, RunObserver& observer);
@@ -42,6 +43,8 @@ class CrowdRecorder {
   std::vector<bool> escaped_;
   std::vector<bool> down_;
   std::vector<bool> down_states_;  ///< by index of the state; set by the first record()
+  bool turns_people_ = false;      ///< set likewise
+  StandingTurns turns_;
 };
 
 }  // namespace throng::sim

@@ -66,8 +66,9 @@ Figure held(const Walker& walker, const Clip& clip, double share) {
 }
 
 Figure standing_figure(const Walker& walker, const Clip& clip, double share) {
-  if (clip.name == "idle") return stand(walker, share);
-  if (clip.name == "look_around") return look_around(walker, share);
+  if (clip.name == "idle") return stand(walker, 0, 2 * share - 1);
+  if (clip.name == "idle_left") return stand(walker, 1, 2 * share - 1);
+  if (clip.name == "idle_right") return stand(walker, -1, 2 * share - 1);
   if (clip.name == "turn_30") return turn_on_the_spot(walker, 30 * kDegree, share);
   if (clip.name == "turn_60") return turn_on_the_spot(walker, 60 * kDegree, share);
   if (clip.name == "turn_90") return turn_on_the_spot(walker, 90 * kDegree, share);
@@ -88,8 +89,7 @@ bool starts_with(const std::string& text, const char* prefix) { return text.rfin
 
 std::vector<Clip> standard_clips() {
   Catalog catalog;
-  catalog.add("idle", 24);
-  catalog.add("look_around", 16);
+  for (const char* name : {"idle", "idle_left", "idle_right"}) catalog.add(name, 13, false);
   catalog.add("phone", 11, false);
   for (const char* name : {"look_up", "look_up_left", "look_up_right"}) {
     catalog.add(name, 9, false);
@@ -124,9 +124,10 @@ std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const Own
   if (clip.stride <= 0) {
     for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
       const double share = cycle_share(clip, frame);
-      const bool stands_as = clip.name == "idle" && !own.idle.empty();
-      const Figure figure =
-          stands_as ? stand_as(walker, own.idle, share) : standing_figure(walker, clip, share);
+      const bool stands_as = starts_with(clip.name, "idle") && !own.idle.empty();
+      // Ready in the middle, as everybody is.
+      const Figure figure = stands_as ? stand_as(walker, own.idle, std::fmod(share + 0.5, 1))
+                                      : standing_figure(walker, clip, share);
       palettes.push_back(grounded(walker, solve(walker, figure), walker.soles));
     }
     return palettes;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/geometry/smoothstep.h"
@@ -44,13 +45,30 @@ PoseBlend blend_frame(const Clip& clip, double frame) {
           static_cast<float>(at - before)};
 }
 
+double sway_at(double time_s, double phase) {
+  // The periods have no common multiple within hours.
+  constexpr double kFastS = 4.7;
+  constexpr double kSlowS = 7.9;
+  const double slow = time_s / kSlowS + std::numbers::phi * phase;
+  return 0.6 * std::sin(2 * std::numbers::pi * (time_s / kFastS + phase)) +
+         0.4 * std::sin(2 * std::numbers::pi * slow);
+}
+
+PoseBlend standing_pose(const ClipSet& clips, double phase, double time_s) {
+  const Clip& idle = clips.nearest("idle");
+  const double middle = ready_frame(idle);
+  // Mostly ahead, now and then far to a side.
+  const double aside = std::pow(sway_at(time_s / 3, phase), 3);
+  const double sway = 0.15 * sway_at(time_s, phase);
+  return blend_frame(idle, middle + middle * (0.8 * aside + sway));
+}
+
 PoseBlend pose_at(const Population& population, double phase, double speed_mps, double time_s) {
   check(!population.clips.empty(), "a population has clips");
   const ClipSet clips(population);
   constexpr double kStatureM = 1.75;
   if (speed_mps < kStandingSpeed) {
-    const Clip& idle = clips.nearest("idle");
-    return blend_frame(idle, (phase + time_s / kIdlePeriod) * idle.frames);
+    return standing_pose(clips, phase - std::floor(phase), time_s);
   }
   const bool runs = speed_mps > running_speed_mps(kStatureM);
   const Clip& clip =

@@ -11,8 +11,6 @@
 
 namespace throng::skinning {
 
-/// Period (s) of the motion of standing people.
-inline constexpr double kIdlePeriod = 8;
 /// Speed (m/s) below which people stand.
 inline constexpr double kStandingSpeed = 0.15;
 
@@ -35,10 +33,6 @@ struct PoseBlend {
 /// The frame of a clip at a position in frames; cyclic clips repeat in both directions.
 PoseBlend blend_frame(const Clip& clip, double frame);
 
-/// The pose of a person in steady motion: `phase` in strides (any value), `speed_mps` >= 0;
-/// `time_s` drives the motion of standing people. MotionPlan computes motion along a trace.
-PoseBlend pose_at(const Population& population, double phase, double speed_mps, double time_s);
-
 /// The clips of a population by name. The population must outlive this object.
 class ClipSet {
  public:
@@ -53,5 +47,20 @@ class ClipSet {
  private:
   const std::vector<Clip>* clips_;
 };
+
+/// A clip's frame at which people stand ready: the middle of "idle" and its likes, in which they
+/// look to the right before it and to the left after it.
+inline std::uint32_t ready_frame(const Clip& idle) { return idle.frames / 2; }
+
+/// How a standing person sways, from -1 to 1: smooth, and no pose comes back within minutes.
+/// `phase` in [0, 1) differs between people.
+double sway_at(double time_s, double phase);
+
+/// The pose of a standing person of whom nothing but the time is known; `phase` as in sway_at().
+PoseBlend standing_pose(const ClipSet& clips, double phase, double time_s);
+
+/// The pose of a person in steady motion: `phase` in strides (any value), `speed_mps` >= 0;
+/// `time_s` drives the motion of standing people. MotionPlan computes motion along a trace.
+PoseBlend pose_at(const Population& population, double phase, double speed_mps, double time_s);
 
 }  // namespace throng::skinning

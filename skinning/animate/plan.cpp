@@ -7,6 +7,7 @@
 
 #include "base/compute/random.h"
 #include "base/error.h"
+#include "base/geometry/smoothstep.h"
 #include "skinning/animate/footsteps.h"
 #include "skinning/animate/rest.h"
 #include "skinning/animate/standing.h"
@@ -103,10 +104,15 @@ class WalkLayer {
     } else {
       const double phase = switch_phase(clip) + after(clip, kChangeStrides);
       frame_ = (phase + half(step.side)) * frames;
-      blend(clips_.nearest("idle").first, palette(clip, frame_), place_m(step, phase));
+      blend(ready_palette(), palette(clip, frame_), place_m(step, phase));
     }
     clip_ = &clip;
     laid_ = false;
+  }
+
+  std::uint32_t ready_palette() const {
+    const Clip& idle = clips_.nearest("idle");
+    return idle.first + ready_frame(idle);
   }
 
   // A whole number of frames.
@@ -152,7 +158,7 @@ class WalkLayer {
       frame_ = 0;
       add(*stop, stop->frames - 1, end_m);
     } else {
-      blend(palette(clip, frame_), clips_.nearest("idle").first, end_m);
+      blend(palette(clip, frame_), ready_palette(), end_m);
     }
   }
 
@@ -174,7 +180,6 @@ struct ClipActions {
 /// The first one whose prefix a name has counts.
 constexpr std::array kClipActions = {
     ClipActions{"idle", Actions(Action::stand)},
-    ClipActions{"look_around", Actions(Action::stand, Action::look_around)},
     ClipActions{"phone", Actions(Action::stand, Action::use_phone)},
     ClipActions{"look_up", Actions(Action::stand, Action::look_at_drone)},
     ClipActions{"turn_", Actions(Action::turn)},
@@ -193,9 +198,17 @@ Actions fall_actions(const Piece& piece) {
   return piece.to_frame < piece.frame ? Actions(Action::get_up) : Actions(Action::lie);
 }
 
+/// Whether a piece of standing ends with the head turned far to a side.
+bool looks_around(const Piece& piece) {
+  const double middle = ready_frame(*piece.clip);
+  return piece.clip->name.starts_with("idle") &&
+         std::abs(piece.to_frame - middle) > std::max(0.45 * middle, 1.0);
+}
+
 Actions actions_during(const Piece& piece) {
   // The blend at the end of a walk goes to standing.
-  if (piece.clip == nullptr) return Actions(Action::walk);
+  if (piece.clip == nullptr) return Actions(piece.by_distance ? Action::walk : Action::stand);
+  if (looks_around(piece)) return Actions(Action::stand, Action::look_around);
   if (piece.clip->name.starts_with("fall_")) return fall_actions(piece);
   for (const ClipActions& known : kClipActions) {
     if (piece.clip->name.starts_with(known.prefix)) return known.actions;
@@ -206,7 +219,8 @@ Actions actions_during(const Piece& piece) {
 }  // namespace
 
 MotionPlan::MotionPlan(const Population& population, const Appearance& appearance,
-                       std::uint64_t key, std::span<const Moment> moments, double dt_s) {
+                       std::uint64_t key, std::span<const Moment> moments, double dt_s)
+    : dt_s_(dt_s), phase_(appearance.phase_offset) {
   check(appearance.character < population.characters.size(), "the population has the character");
   const Character& character = population.characters[appearance.character];
   const ClipSet clips(population);
@@ -246,20 +260,27 @@ std::vector<Piece>::const_iterator MotionPlan::piece_at(double step) const {
 
 Actions MotionPlan::actions_at(double step) const {
   auto piece = piece_at(step);
-  while (piece->clip == nullptr && piece + 1 != pieces_.end()) ++piece;
+  while (piece->clip == nullptr && piece->by_distance && piece + 1 != pieces_.end()) ++piece;
   return actions_during(*piece);
 }
 
 PoseBlend MotionPlan::at(double step) const {
+  step = std::clamp(step, 0.0, static_cast<double>(distance_m_.size() - 1));
   const Piece& piece = *piece_at(step);
   const double driver = piece.by_distance ? at_step(distance_m_, step) : step;
   const double length = piece.to - piece.from;
-  const double share = length > 0 ? std::clamp((driver - piece.from) / length, 0.0, 1.0) : 1.0;
+  const double done = length > 0 ? std::clamp((driver - piece.from) / length, 0.0, 1.0) : 1.0;
+  const double share = piece.moving > 0 ? geometry::smoothstep(done / piece.moving) : done;
   if (piece.clip == nullptr) {
     return {static_cast<std::uint32_t>(piece.frame), static_cast<std::uint32_t>(piece.to_frame),
             static_cast<float>(share)};
   }
-  return blend_frame(*piece.clip, piece.frame + share * (piece.to_frame - piece.frame));
+  double frame = piece.frame + share * (piece.to_frame - piece.frame);
+  if (piece.sway > 0) {
+    const double ends = geometry::smoothstep(6 * done) * geometry::smoothstep(6 * (1 - done));
+    frame += piece.sway * ends * sway_at(step * dt_s_, phase_);
+  }
+  return blend_frame(*piece.clip, frame);
 }
 
 }  // namespace throng::skinning

@@ -26,6 +26,8 @@ struct Piece {
   double to_frame = 0;
   const Clip* clip = nullptr;  ///< null: blend between two palettes
   bool by_distance = false;
+  float moving = 0;  ///< share of the piece in which it gets there, smoothly; 0: all of it, evenly
+  float sway = 0;    ///< frames by which it sways about that, with no sway at its ends
 };
 
 /// The plan of one stay of an agent.
@@ -47,6 +49,8 @@ class MotionPlan {
 
   std::vector<Piece> pieces_;
   std::vector<float> distance_m_;
+  double dt_s_;
+  double phase_;  ///< of swaying
 };
 
 }  // namespace throng::skinning

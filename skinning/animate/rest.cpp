@@ -12,6 +12,7 @@ namespace throng::skinning {
 namespace {
 
 constexpr double kFallS = 1.3;
+constexpr double kAtEaseS = 20;  // the longest time from one stance of readiness to the next
 constexpr double kGetUpS = 2.2;
 constexpr double kFastFallMps = 1.2;  // who is faster falls on the face
 constexpr double kSlowTurnRadps = 12 * kDegree;
@@ -51,6 +52,7 @@ RestLayer::RestLayer(const Trajectory& trajectory, const ClipSet& clips, double 
       phase_offset_(phase_offset),
       random_(random),
       phones_(random_.uniform() < 0.4),
+      calm_(random_.uniform(0.7, 1.4)),
       pieces_(pieces) {}
 
 void RestLayer::add(const Clip& clip, double begin, double end, double frame, double to_frame) {
@@ -58,19 +60,9 @@ void RestLayer::add(const Clip& clip, double begin, double end, double frame, do
 }
 
 void RestLayer::stand(const Stretch& stretch, bool first, bool last) {
-  auto begin = static_cast<double>(stretch.first);
-  const Clip& stand = clips_.nearest("idle");
-  if (first || begin == static_cast<double>(stretch.last)) {
-    // In the middle of swaying.
-    const double left = stand.frames * (1 - phase_offset_);
-    double end = begin + steps(kIdlePeriod * (1 - phase_offset_));
-    if (last && stretch.first == stretch.last) end = begin + 1;
-    if (end <= static_cast<double>(stretch.last) || last) {
-      add(stand, begin, end, stand.frames - left, stand.frames);
-      begin = std::min(end, static_cast<double>(stretch.last));
-    }
-  }
-  std::size_t at = static_cast<std::size_t>(std::ceil(begin));
+  // Before the first step and after the last one people stand as well, in the middle of something.
+  auto begin = static_cast<double>(stretch.first) - (first ? steps(kAtEaseS * phase_offset_) : 0);
+  std::size_t at = stretch.first;
   const std::span<const Moment> moments = trajectory_.moments();
   while (at < stretch.last) {
     std::size_t end = at;
@@ -88,7 +80,7 @@ void RestLayer::stand(const Stretch& stretch, bool first, bool last) {
     }
     at = std::max(end, at + 1);
   }
-  idle(begin, static_cast<double>(stretch.last));
+  idle(begin, static_cast<double>(stretch.last) + (last ? steps(kAtEaseS) : 0));
 }
 
 // Feet step as fast as the body turns.
@@ -116,18 +108,23 @@ void RestLayer::turn(std::size_t begin, std::size_t end) {
   }
 }
 
+std::size_t RestLayer::moment_at(double step) const {
+  return static_cast<std::size_t>(std::clamp(step, 0.0, static_cast<double>(trajectory_.last())));
+}
+
 double RestLayer::gaze_begins(double from, double to) const {
-  for (auto step = static_cast<std::size_t>(from); static_cast<double>(step) < to; ++step) {
-    if (trajectory_.moments()[step].gaze != Gaze::none)
-      return std::max(static_cast<double>(step), from);
+  for (std::size_t step = moment_at(from); step <= moment_at(to); ++step) {
+    if (trajectory_.moments()[step].gaze != Gaze::none) {
+      return std::clamp(static_cast<double>(step), from, to);
+    }
   }
   return to;
 }
 
 double RestLayer::gaze_ends(double from, double to) const {
-  const auto first = static_cast<std::size_t>(from);
-  const Gaze gaze = trajectory_.moments()[first].gaze;
-  for (std::size_t step = first; static_cast<double>(step) < to; ++step) {
+  const Gaze gaze = trajectory_.moments()[moment_at(from)].gaze;
+  for (std::size_t step = moment_at(from); static_cast<double>(step) < to; ++step) {
+    if (step > trajectory_.last()) break;
     if (trajectory_.moments()[step].gaze != gaze) return static_cast<double>(step);
   }
   return to;
@@ -140,7 +137,7 @@ void RestLayer::idle(double begin, double end) {
 
 double RestLayer::idle_once(double begin, double end) {
   constexpr double kShortLookS = 2.4;
-  const Gaze gaze = trajectory_.moments()[static_cast<std::size_t>(begin)].gaze;
+  const Gaze gaze = trajectory_.moments()[moment_at(begin)].gaze;
   if (gaze != Gaze::none && end - begin >= steps(kShortLookS)) {
     const char* name = gaze == Gaze::left    ? "look_up_left"
                        : gaze == Gaze::right ? "look_up_right"
@@ -155,33 +152,58 @@ double RestLayer::idle_once(double begin, double end) {
   // A person who is looking at nothing notices it when it comes.
   const double until = gaze == Gaze::none ? gaze_begins(begin, end) : end;
   const double left_s = (until - begin) * trajectory_.dt_s();
-  const Clip& stand = clips_.nearest("idle");
-  const Clip* around = clips_.find("look_around");
   const Clip* phone = clips_.find("phone");
   const double what = random_.uniform();
-  const double length = random_.uniform();
-  const double look_s = 5 + 2 * length;
-  if (what < 0.22 && around != nullptr && left_s > look_s) {
-    add(*around, begin, begin + steps(look_s), 0, around->frames);
-    return begin + steps(look_s);
-  }
-  const double phone_s = 6 + 12 * length;
-  if (phones_ && what > 0.6 && phone != nullptr && left_s > phone_s) {
+  const double phone_s = random_.uniform(6, 18);
+  if (phones_ && what > 0.7 && phone != nullptr && left_s > phone_s) {
     hold(*phone, begin, begin + steps(phone_s), 0.9);
     return begin + steps(phone_s);
   }
-  const double sway_s = kIdlePeriod * (0.85 + 0.3 * length);
-  if (left_s > 0.6 * kIdlePeriod) {
-    const double last = left_s < 1.6 * sway_s ? until : begin + steps(sway_s);
-    add(stand, begin, last, 0, stand.frames);
-    return last;
+  const double ease_s = random_.uniform(0.4, 0.9) * kAtEaseS;
+  const double end_of_ease = left_s < 1.4 * ease_s ? until : begin + steps(ease_s);
+  stand_at_ease(begin, end_of_ease);
+  return end_of_ease;
+}
+
+// With the weight on one leg, mostly.
+void RestLayer::stand_at_ease(double begin, double end) {
+  constexpr double kShiftS = 1.3;
+  const double draw = random_.uniform();
+  const Clip& even = clips_.nearest("idle");
+  const Clip* side = clips_.find(draw < 0.45 ? "idle_left" : "idle_right");
+  if (draw > 0.9 || side == nullptr || end - begin < steps(4 * kShiftS)) {
+    look_about(even, begin, end);
+    return;
   }
-  // A moment only: a little sway and back.
-  const double middle = 0.5 * (begin + until);
-  const double sway = stand.frames * 0.5 * left_s / kIdlePeriod;
-  add(stand, begin, middle, 0, sway);
-  add(stand, middle, until, sway, 0);
-  return until;
+  shift_weight(even, *side, begin, begin + steps(kShiftS));
+  look_about(*side, begin + steps(kShiftS), end - steps(kShiftS));
+  shift_weight(*side, even, end - steps(kShiftS), end);
+}
+
+void RestLayer::shift_weight(const Clip& from, const Clip& to, double begin, double end) {
+  pieces_.push_back({begin, begin, end, static_cast<double>(from.first + ready_frame(from)),
+                     static_cast<double>(to.first + ready_frame(to)), nullptr, false, 1});
+}
+
+// Ahead, and now and then to a side.
+void RestLayer::look_about(const Clip& clip, double begin, double end) {
+  const double middle = ready_frame(clip);
+  double frame = middle;
+  while (end - begin > 1e-9) {
+    const double dwell_s = calm_ * random_.uniform(1.8, 5.5);
+    const double reach = random_.uniform() < 0.4 ? 0.9 : 0.35;
+    const double drawn = middle * (1 + random_.uniform(-reach, reach));
+    const bool ends = end - begin < steps(1.6 * dwell_s);
+    const double until = ends ? end : begin + steps(dwell_s);
+    const double to = ends ? middle : drawn;
+    const double s = (until - begin) * trajectory_.dt_s();
+    const double turn_s = 0.5 + 0.8 * std::abs(to - frame) / std::max(middle, 1.0);
+    add(clip, begin, until, frame, to);
+    pieces_.back().moving = static_cast<float>(std::min(turn_s / s, 1.0));
+    pieces_.back().sway = static_cast<float>(middle * std::min(0.08 * s, 0.25));
+    frame = to;
+    begin = until;
+  }
 }
 
 // Raised in the first half of the clip, held for as long as there is time, and lowered.

@@ -14,19 +14,24 @@ struct Piece;
 /// Appends pieces of motion for stretches of standing and lying.
 class RestLayer {
  public:
-  /// `phase_offset` in [0, 1): phase of the idle motion of people who stand from the first step on.
+  /// `phase_offset` in [0, 1): how far people who stand from the first step on are in what they do.
   /// The references must outlive this object.
   RestLayer(const Trajectory& trajectory, const ClipSet& clips, double phase_offset, Random random,
             std::vector<Piece>& pieces);
 
-  /// Plans standing: looking around, at a phone or at the sky, and turning with the body.
+  /// Plans standing: swaying, shifting the weight, looking around, at a phone or at the sky, and
+  /// turning with the body.
   void stand(const Stretch& stretch, bool first, bool last);
   /// Plans falling (unless lying from the first step on), lying, and getting up (unless `last`).
   void lie(const Stretch& stretch, bool first, bool last);
 
  private:
   double steps(double seconds) const { return seconds / trajectory_.dt_s(); }
+  std::size_t moment_at(double step) const;
   void add(const Clip& clip, double begin, double end, double frame, double to_frame);
+  void shift_weight(const Clip& from, const Clip& to, double begin, double end);
+  void stand_at_ease(double begin, double end);
+  void look_about(const Clip& clip, double begin, double end);
   void idle(double begin, double end);
   double idle_once(double begin, double end);
   void hold(const Clip& clip, double begin, double end, double raising_s);
@@ -39,6 +44,7 @@ class RestLayer {
   double phase_offset_;
   Random random_;
   bool phones_;
+  double calm_;  ///< relative time between two movements
   std::vector<Piece>& pieces_;
 };
 

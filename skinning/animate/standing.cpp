@@ -147,31 +147,21 @@ std::vector<Key> fall_on_the_back(const Walker& walker) {
 
 }  // namespace
 
-Figure ready(const Walker& walker) { return stand(walker, 0); }
+Figure ready(const Walker& walker) { return stand(walker, 0, 0); }
 
-Figure stand(const Walker& walker, double phase) {
+Figure stand(const Walker& walker, double weight, double aside) {
+  // Hips and back go along with the head, so that small turns of it move the whole body.
+  const double sway = std::sin(std::numbers::pi * aside);
+  const double bow = 1 - std::cos(std::numbers::pi * aside);
   Trunk trunk;
-  trunk.hips_yaw = 0.012 * sine(phase);
-  trunk.chest_yaw = 0.02 * sine(phase);
-  trunk.tilt = 0.028 * sine(phase);
-  trunk.head_yaw = 0.22 * sine(phase) * walker.manner.liveliness;
-  trunk.head_down = 0.03 * sine(2 * phase);
-  return standing(walker, trunk, sine(2 * phase), 0.012 * walker.stature_m * sine(phase));
-}
-
-Figure look_around(const Walker& walker, double share) {
-  // To the left, and after a while to the right.
-  const double left =
-      geometry::smoothstep(share / 0.15) * (1 - geometry::smoothstep((share - 0.35) / 0.2));
-  const double right =
-      geometry::smoothstep((share - 0.4) / 0.2) * (1 - geometry::smoothstep((share - 0.8) / 0.2));
-  const double to = left - right;
-  Trunk trunk;
-  trunk.hips_yaw = 0.04 * to;
-  trunk.chest_yaw = 0.18 * to;
-  trunk.tilt = 0.02 * to;
-  trunk.head_yaw = 0.85 * to * walker.manner.liveliness;
-  return standing(walker, trunk, 0, 0.008 * walker.stature_m * to);
+  trunk.hips_yaw = 0.05 * aside;
+  trunk.chest_yaw = 0.18 * aside;
+  trunk.tilt = 0.034 * sway + 0.06 * weight;
+  trunk.lean = 0.012 * bow;
+  trunk.head_yaw = 0.9 * aside * walker.manner.liveliness;
+  trunk.head_down = 0.04 * bow - 0.03 * weight;
+  return standing(walker, trunk, 0.5 * bow * weight,
+                  (0.016 * sway + 0.02 * weight) * walker.stature_m);
 }
 
 Figure look_up(const Walker& walker, double yaw_rad, double raised, double phase) {
@@ -188,8 +178,11 @@ Figure look_up(const Walker& walker, double yaw_rad, double raised, double phase
 Figure look_at_phone(const Walker& walker, double raised, double phase) {
   Trunk trunk;
   trunk.lean = 3 * kDegree;
-  trunk.head_down = (30 + 2 * sine(phase)) * kDegree;
-  Figure figure = standing(walker, trunk, 0, 0.006 * sine(phase));
+  trunk.tilt = 0.02 * sine(phase);
+  trunk.chest_yaw = 0.06 * sine(phase);
+  trunk.head_yaw = trunk.chest_yaw;
+  trunk.head_down = (30 + 4 * sine(phase)) * kDegree;
+  Figure figure = standing(walker, trunk, 0, 0.014 * sine(phase));
   const Side side = phone_hand(walker.manner);
   const Bone upper_arm = on(side, Bone::left_upper_arm);
   const Eigen::Vector3f shoulder = pose_joints(walker.joints, figure.pose)[index_from(upper_arm)];

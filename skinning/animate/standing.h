@@ -9,11 +9,9 @@ namespace throng::skinning {
 /// The stance at the start and the end of every clip of standing, which joins them.
 Figure ready(const Walker& walker);
 
-/// Standing at ease; phase 0 and 1 are ready().
-Figure stand(const Walker& walker, double phase);
-
-/// Turning the head to both sides; share 0 and 1 are ready().
-Figure look_around(const Walker& walker, double share);
+/// Standing at ease: `weight` from -1 (on the right leg) to 1 (on the left one), looking to the
+/// side from -1 (right) to 1 (left); ready() if both are 0.
+Figure stand(const Walker& walker, double weight, double aside);
 
 /// Looking up, `yaw_rad` to the left; `raised` from 0 (ready()) to 1; `phase` of small movements.
 Figure look_up(const Walker& walker, double yaw_rad, double raised, double phase);

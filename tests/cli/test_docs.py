@@ -1,4 +1,5 @@
 """Documentation: links and anchors lead somewhere, every page is on the start page, commands and variables exist."""
+import itertools
 import json
 import os
 import pathlib
@@ -7,6 +8,9 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+import numpy
+from PIL import Image
 
 THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -17,6 +21,11 @@ from doc_blocks import read_blocks  # noqa: E402
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "python").glob("*.md")])
 CODE = re.compile(r"^(```|~~~).*?^\1\s*$", re.M | re.S)
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+
+
+def recipe_of(page, heading):
+    """The first JSON block below a heading."""
+    return json.loads(re.search(rf"^## {re.escape(heading)}\n.*?^```json\n(.*?)^```", page, re.M | re.S)[1])
 
 
 def text_of(page):
@@ -139,6 +148,44 @@ class Docs(unittest.TestCase):
                 )
                 self.assertEqual(done.returncode, 0, recipe + done.stderr)
         self.assertGreaterEqual(jobs, 20)
+
+    def test_images_of_a_set_are_of_many_runs(self):
+        """Those of one run show the same place and, where people stand, the same people."""
+        page = (ROOT / "docs" / "recipes.md").read_text()
+        lists = re.findall(r"^- (?:Detectors|Light and weather|Labels): (.*)$", page, re.M)
+        names = {name for line in lists for name, _ in re.findall(r"\[([^\]]+)\]\((#[^)]+)\)", line)}
+        self.assertGreaterEqual(len(names), 14)
+        sequences = {"Tracking", "Optical flow and all ground truth per pixel"}
+        for name in names - sequences:
+            job = recipe_of(page, name)
+            self.assertEqual(job["capture"]["from_s"], job["capture"]["to_s"], name)
+            self.assertGreaterEqual(job["runs"], 8, name)
+        for preset in ("counting", "detection", "keypoints", "segmentation"):
+            job = json.loads((ROOT / f"scenarios/presets/{preset}.job.json").read_text())
+            self.assertGreaterEqual(job["drones"][0]["camera"].get("per_frame", {}).get("yaw_deg", 0), 20, preset)
+
+    def test_images_of_the_counting_recipe_are_no_near_duplicates(self):
+        job = recipe_of((ROOT / "docs" / "recipes.md").read_text(), "Crowd counting")
+        job.update({"quality": "draft", "crowd": {"agents": 150}, "outputs": {}})
+        for drone in job["drones"]:
+            drone["camera"].update({"width": 320, "height": 180})
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "job.json").write_text(json.dumps(job))
+            people = doc_fixtures.character_library(folder, THRONG)
+            subprocess.run(
+                [THRONG, "run", "job.json", "-o", "out"],
+                cwd=folder,
+                check=True,
+                capture_output=True,
+                timeout=600,
+                env={**os.environ, "THRONG_PEOPLE": str(people)},
+            )
+            files = sorted((folder / "out/dataset/images").rglob("*.jpg"))
+            small = [numpy.asarray(Image.open(file).convert("L").resize((32, 18)), float) for file in files]
+        self.assertEqual(len(small), job["runs"])
+        for one, other in itertools.combinations(small, 2):
+            self.assertGreater(numpy.abs(one - other).mean(), 5)
 
     def provided_by(self, packages):
         """Names that Debian's packages stand for: several packages provide BLAS and LAPACK, and any of them is linked."""

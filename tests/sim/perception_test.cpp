@@ -103,7 +103,7 @@ TEST(TheTruth, HoldsStandingPeopleWithoutCasualties) {
   const std::vector<world::AgentRole> roles(2, world::AgentRole::person);
   const std::vector<world::GoalRef> moving;
   const std::vector<std::optional<world::GoalRef>> guides;
-  CrowdRecorder recorder(scenario, roles, moving);
+  CrowdRecorder recorder(scenario, roles, moving, 1);
   CrowdObserver observer(scenario, roles, guides, crowd->dt_s());
   RunObserver nobody;
   recorder.record(*crowd, 0, nobody);

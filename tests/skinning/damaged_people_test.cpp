@@ -55,7 +55,7 @@ TEST_F(DamagedPeopleTest, ErrorsNameTheFileAndTheRemedy) {
        {std::string(), std::string("[1, 2]"),
         replaced(fmt::format("\"format\": {}", kPopulationFormat), "\"format\": 999"),
         replaced("\"clips\"", "\"chips\""), replaced("\"name\"", "\"game\""),
-        replaced("\"frames\": 24", "\"frames\": 0"), replaced("\"#", "\"?")}) {
+        replaced("\"frames\": 13", "\"frames\": 0"), replaced("\"#", "\"?")}) {
     write_file_atomically(folder / "population.json", changed);
     expect_message_about("population.json");
   }

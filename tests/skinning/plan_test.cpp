@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "base/geometry/angle.h"
@@ -46,6 +47,13 @@ MotionPlan plan_for(std::span<const Moment> moments, std::uint32_t character = 0
   appearance.phase_offset = phase_offset;
   appearance.amplitude = amplitude;
   return {two_people(), appearance, 17, moments, kDtS};
+}
+
+/// The plan of one of many people.
+MotionPlan plan_person(std::uint64_t key, std::span<const Moment> moments) {
+  Appearance appearance;
+  appearance.phase_offset = static_cast<float>(std::fmod(0.618 * static_cast<double>(key), 1));
+  return {two_people(), appearance, key, moments, kDtS};
 }
 
 std::string clip_at(const MotionPlan& plan, double step) {
@@ -294,15 +302,86 @@ TEST(Plan, PeopleLookUpAtDrones) {
 TEST(Plan, PeopleDoNotStandInStep) {
   const std::vector<Moment> moments = straight_trajectory(std::vector<double>(600, 0), kDtS);
   std::vector<std::string> seen;
+  int look_around = 0;
   for (std::uint64_t key = 0; key < 40; ++key) {
-    Appearance appearance;
-    appearance.phase_offset = static_cast<float>(key) / 40;
-    const MotionPlan plan(two_people(), appearance, key, moments, kDtS);
-    for (double step = 0; step < 600; step += 7) seen.push_back(clip_at(plan, step));
+    const MotionPlan plan = plan_person(key, moments);
+    for (double step = 0; step < 600; step += 7) {
+      seen.push_back(clip_at(plan, step));
+      look_around += plan.actions_at(step).has(Action::look_around) ? 1 : 0;
+    }
   }
-  for (const char* name : {"idle", "look_around", "phone"}) {
+  for (const char* name : {"idle", "idle_left", "idle_right", "phone"}) {
     EXPECT_GT(std::count(seen.begin(), seen.end(), name), 100) << name;
   }
+  EXPECT_GT(look_around, 200);
+  EXPECT_LT(look_around, static_cast<int>(seen.size()) / 2);
+}
+
+/// Mean movement of all joints from one step to another, in meters.
+double moved_m(const MotionPlan& plan, std::span<const Moment> moments, double from, double to) {
+  double sum = 0;
+  const Walker walker = made_up_walker();
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    // Somewhat ahead of the joint, so that turns count.
+    const auto named = static_cast<Bone>(bone);
+    const Vertex vertex =
+        made_up_vertex(walker.joints[bone] + Eigen::Vector3f(0.1F, 0, 0), named, named, 0);
+    sum += static_cast<double>((placed(two_people(), 0, plan, moments, to, vertex) -
+                                placed(two_people(), 0, plan, moments, from, vertex))
+                                   .norm());
+  }
+  return sum / kBoneCount;
+}
+
+// Images of a crowd that stands are worth taking: at no interval do people come back to a pose.
+TEST(Plan, StandingPeopleAreNeverTheSameAgain) {
+  const std::vector<Moment> moments = straight_trajectory(std::vector<double>(900, 0), kDtS);
+  std::vector<MotionPlan> plans;
+  for (std::uint64_t key = 0; key < 50; ++key) plans.push_back(plan_person(key, moments));
+  for (const double interval_s : {1.0, 2.0, 5.0, 8.0, 10.0, 16.0, 20.0, 30.0, 40.0, 80.0}) {
+    std::vector<double> moved;
+    for (const MotionPlan& plan : plans) {
+      for (double step = 0; step + interval_s / kDtS <= 900; step += 50) {
+        moved.push_back(moved_m(plan, moments, step, step + interval_s / kDtS));
+      }
+    }
+    std::sort(moved.begin(), moved.end());
+    EXPECT_GT(moved[moved.size() / 2], interval_s < 5 ? 0.008 : 0.016) << interval_s << " s";
+    EXPECT_GT(moved[moved.size() / 20], interval_s < 5 ? 0.0008 : 0.002) << interval_s << " s";
+  }
+}
+
+TEST(Plan, PeopleStandDifferentlyAtTheFirstAndLastStep) {
+  const std::vector<Moment> moments = straight_trajectory(std::vector<double>(100, 0), kDtS);
+  for (const double step : {0.0, 100.0}) {
+    std::set<std::pair<std::uint32_t, int>> poses;
+    for (std::uint64_t key = 0; key < 50; ++key) {
+      const PoseBlend pose = plan_person(key, moments).at(step);
+      poses.insert({pose.a, static_cast<int>(10 * pose.blend)});
+    }
+    EXPECT_GT(poses.size(), 25U) << step;
+  }
+}
+
+TEST(Plan, StandingPeopleMoveCalmlyOnFeetThatStay) {
+  const std::vector<Moment> moments = straight_trajectory(std::vector<double>(600, 0), kDtS);
+  const Walker walker = made_up_walker();
+  constexpr double kFrame = 1 / 30.0 / kDtS;
+  double worst_m = 0;
+  for (std::uint64_t key = 0; key < 12; ++key) {
+    const MotionPlan plan = plan_person(key, moments);
+    EXPECT_LT(worst_contact(plan, 0, moments).slide_m, 0.008) << key;
+    for (const Vertex& vertex : walker.body) {
+      Eigen::Vector3f before = placed(two_people(), 0, plan, moments, 0, vertex);
+      for (double step = kFrame; step <= 600; step += kFrame) {
+        const Eigen::Vector3f now = placed(two_people(), 0, plan, moments, step, vertex);
+        const bool raises = clip_at(plan, step) == "phone";
+        if (!raises) worst_m = std::max<double>(worst_m, (now - before).norm());
+        before = now;
+      }
+    }
+  }
+  EXPECT_LT(worst_m, 0.02) << "within a thirtieth of a second";
 }
 
 TEST(Plan, JostlingIsNoWalk) {
