@@ -60,8 +60,8 @@ class Simulation {
   std::span<const GoalId> goals() const;
   /// 1: the agent takes part, that is, has arrived and not left yet.
   std::span<const std::uint8_t> present() const;
-  /// When agents are to arrive who are not there at the start, s, in no order; they come later where
-  /// others are in the way.
+  /// When agents are to arrive who are not there at the start, s, in no order; they come later
+  /// where others are in the way.
   std::span<const double> planned_arrivals_s() const;
   std::span<const std::uint8_t> panicked() const;  ///< 1: in panic
   std::span<const std::uint8_t> fallen() const;    ///< 1: lies on the ground (see Physical)
