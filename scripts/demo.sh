@@ -15,7 +15,7 @@ esac
 if [ -x "$root/build/release/cli/throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
 else
-  say "about 8 minutes on two cores: 2 for the packages, 5 to compile, half a minute each for the characters and the job"
+  say "about 20 minutes on two cores: 3 for the packages, 16 to compile, half a minute each for the characters and the job"
   echo "needs root or sudo, 5 GB of disk and 530 MB to download (1,130 Debian packages)"
 fi
 "$root/scripts/setup.sh"
