@@ -75,7 +75,7 @@ def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__ + "/../..").resolve()
     listed = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=root, check=True, capture_output=True, text=True,
+        cwd=root, check=True, capture_output=True, encoding="utf-8",
     ).stdout  # fmt: skip
     names = sorted(name for name in listed.split("\0") if name and (root / name).exists())
     wrong = [f"{name}: {what}" for name in names if (what := problem(root, name))]

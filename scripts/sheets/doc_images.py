@@ -77,7 +77,9 @@ def weather(folder):
 def scenarios(folder):
     """The sheet of each shipped scenario, and the table of docs/shipped_scenarios.md, which are of the same runs."""
     page = DOCS / "shipped_scenarios.md"
-    table = subprocess.run([SHEETS / "scenario_runs.sh", folder], check=True, capture_output=True, text=True).stdout
+    table = subprocess.run(
+        [SHEETS / "scenario_runs.sh", folder], check=True, capture_output=True, encoding="utf-8"
+    ).stdout
     text, rows = re.subn(r"\| scenario \| variant (.*\n)(\|.*\n)+", lambda _: table, page.read_text(encoding="utf-8"))
     assert rows == 1, page
     page.write_text(text, encoding="utf-8")

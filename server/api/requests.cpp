@@ -69,8 +69,10 @@ void require_known_parameters(const Request& request, const Route& route) {
   }
   for (const auto& [name, value] : request.params) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throw HttpError{
-        400, "the query is wrong", {unknown_name("", "?" + name, "parameter", name, known)}};
+    const std::string where = "?" + name;
+    const Problem problem = known.empty() ? Problem{"", where, "a parameter", "none"}
+                                          : unknown_name("", where, "parameter", name, known);
+    throw HttpError{400, "the query is wrong", {problem}};
   }
 }
 

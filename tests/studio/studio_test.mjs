@@ -264,7 +264,7 @@ test("jobs are filtered by the address and removed in bulk", async () => {
   await page.getByRole("button", { name: "succeeded" }).click();
   await page.getByRole("link", { name: kJob.name }).waitFor();
   assert.equal(new URL(page.url()).searchParams.getAll("state").join(), "failed,succeeded");
-  const copy = await service.json(`/v1/jobs/${job}/clone?dry`, { method: "POST" });
+  const copy = await service.json(`/v1/jobs/${job}/clone`, { method: "POST" });
   await go("/jobs?name=studio");
   await page.locator("tbody tr").nth(1).waitFor();
   await check(page, "jobs");

@@ -74,7 +74,7 @@ function outcomeOf(delivery: Delivery): string {
 }
 
 function Deliveries({ id, round }: { id: string; round: number }) {
-  const list = useJson<DeliveryList>(`/v1/webhooks/${id}/deliveries?limit=20&at=${round}`);
+  const list = useJson<DeliveryList>(`/v1/webhooks/${id}/deliveries?limit=20#${round}`);
   if (list.value?.deliveries.length === 0) return <p class="quiet-text">Nothing was sent yet.</p>;
   return (
     <ul class="plain-list deliveries">

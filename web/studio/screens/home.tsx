@@ -15,7 +15,7 @@ const kRecent = 8;
 
 function RunningJob({ job }: { job: Job }) {
   const done = job.progress.frames_done ?? 0;
-  const previews = useJson<PreviewList>(`/v1/jobs/${job.id}/previews?at=${Math.floor(done / 8)}`);
+  const previews = useJson<PreviewList>(`/v1/jobs/${job.id}/previews#${Math.floor(done / 8)}`);
   const newest = previews.value?.previews.at(-1);
   const rate = job.progress.frames_per_s ?? 0;
   const left = job.progress.remaining_s ?? null;

@@ -176,7 +176,7 @@ function RunTable({ job }: { job: Job }) {
 /** `newest`: the name of the one that came last. */
 function Previews({ job, newest }: { job: Job; newest: string }) {
   const step = Math.floor((job.progress.frames_done ?? 0) / 8);
-  const previews = useJson<PreviewList>(`/v1/jobs/${job.id}/previews?at=${job.state}${step}${encodeURIComponent(newest)}`);
+  const previews = useJson<PreviewList>(`/v1/jobs/${job.id}/previews#${job.state}${step}${encodeURIComponent(newest)}`);
   const list = previews.value?.previews.slice(-kMaxPreviews) ?? [];
   return (
     <div class="cards small-cards">
