@@ -75,12 +75,13 @@ std::string headline(const json& warnings) {
   return warnings.empty() ? "valid" : "valid, " + counted(warnings.size(), "warning");
 }
 
-/// People who take part and have not come by the end of a run are in none of its images.
+/// People who take part and have not come by the end of a run are in none of its images; when they
+/// come is sampled for each run.
 std::string people_text(const json& answer) {
   const std::int64_t people = answer["people"];
   const std::int64_t asked = answer["job"].value(json::json_pointer("/crowd/agents"), people);
   if (people >= asked) return fmt::format("{}", people);
-  return fmt::format("{} of {}, as the others come after the end", people, asked);
+  return fmt::format("about {} of {}, as the others come after the end", people, asked);
 }
 
 }  // namespace
