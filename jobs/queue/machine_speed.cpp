@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -82,6 +83,7 @@ void learn_machine_speed(const fs::path& file, const JobFolder& folder, const Jo
   if (file.empty()) return;
   try {
     std::vector<ExpectedRun> runs;
+    runs.reserve(static_cast<std::size_t>(job.runs));
     for (int run = 0; run < job.runs; ++run) runs.push_back(simulated_run(folder, job, run));
     const double factor = clamped(cpu_s / estimate_cost(job, runs, 0).cpu_s);
     MachineSpeed speed = read_speed(file);
