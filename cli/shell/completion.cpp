@@ -73,6 +73,7 @@ std::string value_lister(const std::string& words, const CLI::Option& option) {
 /// The names of an option as they are typed ("-m", "--models"); none for a positional argument.
 std::vector<std::string> typed_names(const CLI::Option& option) {
   std::vector<std::string> names;
+  names.reserve(option.get_snames().size() + option.get_lnames().size());
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
   return names;
