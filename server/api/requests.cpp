@@ -61,11 +61,13 @@ void require_known_parameters(const Request& request, const Route& route) {
   if (request.target.find('?') == std::string::npos) return;  // a form's fields are no query
   static const json kPaths = parse_json(embedded::kOpenApi, "openapi.json", {}).at("paths");
   const std::string method = lower_case(to_string(route.method));
+  static const json kNone = json::array();
   const json& operation = kPaths.at(route.path).at(method);
+  const auto parameters = operation.find("parameters");
   std::vector<std::string_view> known;
-  for (const json& parameter : operation.value("parameters", json::array())) {
-    if (parameter.at("in") == "query")
-      known.push_back(parameter.at("name").get_ref<const std::string&>());
+  for (const json& parameter : parameters == operation.end() ? kNone : *parameters) {
+    const bool is_of_query = parameter.at("in") == "query";
+    if (is_of_query) known.push_back(parameter.at("name").get_ref<const std::string&>());
   }
   for (const auto& [name, value] : request.params) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
