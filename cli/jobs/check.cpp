@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "cli/jobs/job_runner.h"
@@ -30,7 +31,11 @@ void add_check(CLI::App& app) {
     nlohmann::json answer =
         to_json(jobs::check_job(read_job_text(*file), *file, world::scenarios_folder()));
     jobs::fit_to_machine(answer, jobs::user_speed_file());
-    jobs::warn_of_full_disk(answer, ".", "the disk of " + std::filesystem::current_path().string());
+    const std::filesystem::path here = std::filesystem::current_path();
+    std::error_code error;  // a disk that cannot be measured has the largest number free
+    jobs::warn_of_full_disk(answer,
+                            static_cast<double>(std::filesystem::space(here, error).available),
+                            "the disk of " + here.string());
     if (*as_json) {
       fmt::print("{}\n", answer.dump(2));
     } else {

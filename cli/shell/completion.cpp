@@ -79,9 +79,9 @@ std::vector<std::string> typed_names(const CLI::Option& option) {
   return names;
 }
 
-/// Cases of bash and zsh that print the values of "COMMAND OPTION", or of "COMMAND " for its
-/// positional argument.
-std::string value_cases(const CLI::App& app) {
+/// A function of bash and zsh that prints the values of the option $2 of the command $1, or of the
+/// command's positional argument if $2 is empty; it fails if they are no known words.
+std::string values_function(const CLI::App& app) {
   std::string cases;
   for_each_command(app, "throng", [&](const CLI::App& command, const std::string& words) {
     for (const CLI::Option* option : command.get_options()) {
@@ -95,7 +95,7 @@ std::string value_cases(const CLI::App& app) {
       cases += fmt::format("    {}) {} ;;\n", fmt::join(patterns, " | "), lister);
     }
   });
-  return cases;
+  return "_throng_values() {\n  case \"$1 $2\" in\n" + cases + "    *) return 1 ;;\n  esac\n}\n";
 }
 
 std::string replaced(std::string_view text, char wanted, std::string_view with) {
@@ -127,13 +127,8 @@ _throng_words() {
   esac
 }
 
-_throng_values() {
-  case "$1 $2" in
-)sh" + value_cases(app) +
-         R"sh(    *) return 1 ;;
-  esac
-}
-
+)sh" + values_function(app) +
+         R"sh(
 _throng() {
   local words command="throng" word before=""
   local last="${COMP_WORDS[COMP_CWORD]}" previous="${COMP_WORDS[COMP_CWORD-1]}"
@@ -180,13 +175,8 @@ _throng_candidates() {
   esac
 }
 
-_throng_values() {
-  case "$1 $2" in
-)sh" + value_cases(app) +
-         R"sh(    *) return 1 ;;
-  esac
-}
-
+)sh" + values_function(app) +
+         R"sh(
 _throng() {
   local command="throng" word values previous="${words[CURRENT-1]}"
   local -a candidates

@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/geometry/angle.h"
 #include "base/text/words.h"
+#include "spec/estimates/job_cost.h"
 #include "spec/sun/sun.h"
 
 namespace throng::cli {
@@ -24,16 +24,6 @@ std::string duration_text(double seconds) {
   if (seconds < 2 * kMinuteS) return fmt::format("{:.0f} s", std::max(seconds, 1.0));
   if (seconds < 2 * kHourS) return fmt::format("{:.0f} min", seconds / kMinuteS);
   return fmt::format("{:.1f} h", seconds / kHourS);
-}
-
-std::string size_text(double bytes) {
-  constexpr double kStep = 1000;
-  constexpr std::array kUnits = {"kB", "MB", "GB", "TB"};
-  std::size_t unit = 0;
-  double value = bytes / kStep;
-  for (; value >= kStep && unit + 1 < kUnits.size(); ++unit) value /= kStep;
-  return value < 10 ? fmt::format("{:.1f} {}", value, kUnits.at(unit))
-                    : fmt::format("{:.0f} {}", value, kUnits.at(unit));
 }
 
 void print_view(const json& view) {
@@ -99,7 +89,7 @@ void print_job_summary(const json& answer, const std::string& file, int cores) {
   fmt::print("  {:<10}about {} on {} of {} {}\n", "time",
              duration_text(estimate["cpu_s"].get<double>() / cores), counted(cores, "core"),
              estimate["basis"] == "this machine" ? "this" : "the reference", "machine");
-  fmt::print("  {:<10}about {}\n", "disk", size_text(estimate["disk_bytes"].get<double>()));
+  fmt::print("  {:<10}about {}\n", "disk", jobs::size_text(estimate["disk_bytes"].get<double>()));
   fmt::print("  {:<10}about {} MiB for each worker process\n", "memory",
              estimate["memory_mib"].get<std::int64_t>());
   for (const json& view : answer["views"]) print_view(view);

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Renders the images of docs/ again, with today's renderer. The table names the command of each image.
 
-usage: scripts/sheets/doc_images.py [IMAGE...]    IMAGE: a path below docs/, or a part of it
+usage: scripts/sheets/doc_images.py [IMAGE...]    IMAGE: a path below docs/, or its beginning
 
 Needs the targets throng, weather_sheet and scenario_sheet of the release build, Pillow and matplotlib, and
-Chromium for docs/studio. All images take about 40 CPU-minutes on the software renderer.
+Chromium for docs/studio.
 """
 import json
 import pathlib
@@ -114,14 +114,14 @@ PLOTTED = {
 
 
 def maker(image):
-    """The function or script that makes a image, by its path below docs/; None if nothing does."""
+    """The function or script that makes an image, by its path below docs/; None if nothing does."""
     makers = {**RENDERED, **PLOTTED}
     return next((makers[name] for name in makers if image.startswith(name)), None)
 
 
 def main():
     for name, make in RENDERED.items():
-        if sys.argv[1:] and not any(wanted in name for wanted in sys.argv[1:]):
+        if sys.argv[1:] and not name.startswith(tuple(sys.argv[1:])):
             continue
         with tempfile.TemporaryDirectory() as folder:
             make(pathlib.Path(folder))

@@ -50,21 +50,19 @@ json JobQueue::dry_run(std::string_view job_json, const Viewer& viewer) const {
   json answer = confined_.dry_run(with_cameras(job_json, viewer), folders_.scenarios());
   require_disk(answer.at("estimate").at("disk_bytes").get<std::int64_t>());
   jobs::fit_to_machine(answer, folders_.speed_file());
-  jobs::warn_of_full_disk(answer, folders_.data(), "the service's disk");
+  jobs::warn_of_full_disk(answer, static_cast<double>(measure_disk(folders_.data()).free_bytes),
+                          "the service's disk");
   constexpr const char* kPublish = "/outputs/publish";
   publish_to_.require(parse_json(job_json, "").value(json::json_pointer(kPublish), ""));
   return answer;
 }
 
 void JobQueue::require_disk(std::int64_t planned_bytes) const {
-  constexpr double kGb = 1e9;
   const std::int64_t total_bytes = measure_disk(folders_.data()).total_bytes;
   if (planned_bytes <= total_bytes) return;
-  throw InputError(Problem{
-      "", "/runs",
-      fmt::format("a job of about {:.0f} GB", static_cast<double>(planned_bytes) / kGb),
-      fmt::format("at most the {:.0f} GB of the service's disk: fewer runs, images or annotations",
-                  static_cast<double>(total_bytes) / kGb)});
+  throw InputError(jobs::too_large_for_disk(static_cast<double>(planned_bytes),
+                                            static_cast<double>(total_bytes),
+                                            "of the service's disk"));
 }
 
 jobs::Added JobQueue::submit(const Submission& submission) {

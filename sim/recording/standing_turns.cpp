@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/compute/random.h"
-#include "base/geometry/angle.h"
 
 namespace throng::sim {
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/geometry/angle.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -34,6 +35,6 @@ class StandingTurns {
 };
 
 /// As far as people turn with one step of each foot.
-inline constexpr float kStandingTurnRad = 0.5235988F;
+inline constexpr float kStandingTurnRad = static_cast<float>(30 * kDegree);
 
 }  // namespace throng::sim

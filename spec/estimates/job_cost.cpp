@@ -201,18 +201,28 @@ json warning_json(const Problem& warning) {
           {"message", Problem{"", warning.where, warning.found, warning.expected}.text()}};
 }
 
-void warn_of_full_disk(json& answer, const std::filesystem::path& folder, const std::string& disk) {
-  constexpr double kBytesPerGb = 1e9;
-  const auto planned = answer.at("estimate").at("disk_bytes").get<double>();
-  std::error_code error;
-  const auto free = static_cast<double>(std::filesystem::space(folder, error).available);
-  if (error || planned <= free) return;
+std::string size_text(double bytes) {
+  constexpr double kStep = 1000;
+  constexpr std::array kUnits = {"kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  double value = bytes / kStep;
+  for (; value >= kStep && unit + 1 < kUnits.size(); ++unit) value /= kStep;
+  return value < 10 ? fmt::format("{:.1f} {}", value, kUnits.at(unit))
+                    : fmt::format("{:.0f} {}", value, kUnits.at(unit));
+}
+
+Problem too_large_for_disk(double planned_bytes, double disk_bytes, std::string_view disk) {
+  return {"", "/runs", "a job of about " + size_text(planned_bytes),
+          fmt::format("at most the {} {}: fewer runs, images or annotations", size_text(disk_bytes),
+                      disk)};
+}
+
+void warn_of_full_disk(json& answer, double free_bytes, std::string_view disk) {
+  const auto planned_bytes = answer.at("estimate").at("disk_bytes").get<double>();
+  if (planned_bytes <= free_bytes) return;
   answer.at("warnings")
       .push_back(warning_json(
-          {"", "/runs", fmt::format("a job of about {:.3g} GB", planned / kBytesPerGb),
-           fmt::format(
-               "at most the {:.3g} GB that are free on {}: fewer runs, images or annotations",
-               free / kBytesPerGb, disk)}));
+          too_large_for_disk(planned_bytes, free_bytes, fmt::format("that are free on {}", disk))));
 }
 
 }  // namespace throng::jobs

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -55,9 +55,15 @@ nlohmann::json estimate_json(const JobCost& cost);
 /// A warning as answers have it: {"pointer", "found", "expected", "message"}.
 nlohmann::json warning_json(const Problem& warning);
 
-/// Adds a warning to the answer of a dry run whose job does not fit on the free disk of a folder,
-/// which messages call `disk`.
-void warn_of_full_disk(nlohmann::json& answer, const std::filesystem::path& folder,
-                       const std::string& disk);
+/// A size for people: "2.7 MB", "74 GB".
+std::string size_text(double bytes);
+
+/// The problem with a job that is estimated to need more than the `disk_bytes` of a disk, which the
+/// message describes by `disk`: "of the service's disk".
+Problem too_large_for_disk(double planned_bytes, double disk_bytes, std::string_view disk);
+
+/// Adds a warning to the answer of a dry run whose job needs more than what is free on a disk,
+/// which the message calls `disk`.
+void warn_of_full_disk(nlohmann::json& answer, double free_bytes, std::string_view disk);
 
 }  // namespace throng::jobs

@@ -290,7 +290,7 @@ class Messages(unittest.TestCase):
             asked = {**radians, "camera": {"pitch_deg": pitch}}
             said = throng("check", self.job(drones=[asked])).stdout
             self.assertIn(f"found {pitch} degrees, expected {in_degrees} if it is meant in radians", said)
-        for pitch in (-1.75, -30, -2, -1, -0.1, 0.5):
+        for pitch in (-1.75, -30, -2, -1, -0.1, 0.001, 0.5):
             fine = {**radians, "camera": {"pitch_deg": pitch}}
             self.assertNotIn("radians", throng("check", self.job(drones=[fine])).stdout, pitch)
         self.refused("1 to ", "check", self.job(crowd={"agents": 1_000_000}))

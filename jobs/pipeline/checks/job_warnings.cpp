@@ -95,8 +95,9 @@ bool may_be_radians(std::string_view name, double degrees) {
   constexpr double kRounding = 0.003;
   if (degrees == std::round(degrees)) return false;
   if (name == "pitch_deg" && degrees < -0.2) return degrees > -std::numbers::pi / 2 - kRounding;
-  return std::abs(degrees) < 2 * std::numbers::pi + kRounding &&
-         std::abs(degrees - std::round(degrees / kPart) * kPart) < kRounding;
+  const double parts = std::round(degrees / kPart);
+  return parts != 0 && std::abs(degrees) < 2 * std::numbers::pi + kRounding &&
+         std::abs(degrees - parts * kPart) < kRounding;
 }
 
 void check_angles(const JobSpec& job, std::vector<Problem>& warnings) {

@@ -365,7 +365,7 @@ TEST_F(ServiceTest, AJobLargerThanTheDiskIsRefused) {
     }
     return "";
   };
-  const std::string expected = "GB of the service's disk";
+  const std::string expected = "of the service's disk";
   EXPECT_THAT(refusal([&] { service.queue().submit({.job_json = kLarge}); }), HasSubstr(expected));
   EXPECT_THAT(refusal([&] { service.queue().dry_run(kLarge); }), HasSubstr(expected));
   EXPECT_TRUE(service.queue().list({}).empty());

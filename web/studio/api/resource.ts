@@ -10,7 +10,8 @@ export interface Resource<T> {
   reload: () => void;
 }
 
-/** A JSON answer; the last one stays while another is fetched. `null` as path: nothing is fetched. */
+/** A JSON answer; the last one stays while another is fetched. `null` as path: nothing is fetched.
+ * Nothing behind a # is sent: another one fetches the same path again. */
 export const useJson = <T>(path: string | null): Resource<T> => useFetched<T>(path, getJson);
 
 /** As useJson(), with a function that fetches the value of a path; always the same function. */
