@@ -22,7 +22,9 @@ endif()
 
 add_library(throng_flags INTERFACE)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(throng_flags INTERFACE -fno-semantic-interposition)
+  # Its garbage collector takes a tenth of the time when it starts at once.
+  target_compile_options(throng_flags INTERFACE -fno-semantic-interposition
+    "SHELL:--param ggc-min-heapsize=1000000" "SHELL:--param ggc-min-expand=1000")
 endif()
 # No contraction into fused multiply-adds: the same source gives the same bits at any -march.
 target_compile_options(throng_flags INTERFACE

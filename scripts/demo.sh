@@ -15,10 +15,10 @@ esac
 if [ -x "$root/build/release/cli/throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
 else
-  say "about 20 minutes on two cores: 3 for the packages, 16 to compile, half a minute each for the characters and the job"
+  say "about MINUTES minutes on two cores to the first image: 3 for the packages, TIME to compile, one for characters and the job"
   echo "needs root or sudo, 5 GB of disk and 530 MB to download (1,130 Debian packages)"
 fi
-"$root/scripts/setup.sh"
+if [ -s "$people/population.json" ]; then "$root/scripts/setup.sh"; else "$root/scripts/setup.sh" --first; fi
 
 out="$root/build/demo"
 job_file="$root/scenarios/city_square/demo.job.json"
@@ -62,6 +62,10 @@ tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 say "drawing a frame with its labels, and the report"
 "$root/scripts/sheets/labels_sheet.py" "$out/dataset" "$out/labels.jpg"
 THRONG_URL="$url" "$root/build/release/cli/throng" report "$job" -o "$out/report.html"
+say "the first image, $out/labels.jpg: after $SECONDS s"
+
+say "compiling the rest: imports of scenarios and robots, the engine for Python; more characters (scripts/setup.sh goes on after Ctrl-C)"
+"$root/scripts/setup.sh"
 
 if [ -n "$keep" ]; then
   page="$url/jobs/$job   (Ctrl-C ends the server)"

@@ -158,7 +158,7 @@ asan_ctest() {
 # Libraries and the server, whose children are the release build's program. The step long has the program with sanitizers.
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
-  build release throng
+  build release throng_programs
   build asan throng_sanitized_tests throng_fuzz
   THRONG_TEST_PROGRAM="$root/build/release/cli/throng" asan_ctest asan --repeat-waits -j3 -L '^sanitized$'
 }

@@ -1,4 +1,4 @@
-// The subcommands of `throng`, one file each; main.cpp lists them in one table.
+// The subcommands of `throng`, one file each; program.cpp lists them in one table.
 #pragma once
 
 namespace CLI {

@@ -9,17 +9,9 @@
 #include "server/api/request_context.h"
 #include "server/api/routes.h"
 #include "server/http/http_fwd.h"
+#include "server/http/studio_file.h"
 
 namespace throng::server {
-
-/// A file of the page.
-struct StudioFile {
-  std::string_view name;  ///< "index.DEPTH.html", or with a hash of its content: "main-4K2VXQ7A.js"
-  std::string_view type;  ///< media type
-  std::string_view etag;  ///< including its quotes
-  std::string_view bytes;
-  std::string_view gzip;  ///< the same bytes, compressed by gzip
-};
 
 /// Routes of the page. Its screens have paths of their own, so that they can be linked; all of them
 /// get the same page, whose scripts show the screen.

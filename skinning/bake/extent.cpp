@@ -38,6 +38,19 @@ auto along(const Eigen::Matrix<float, Eigen::Dynamic, 3>& points, const Vector3f
          points.col(2) * direction.z();
 }
 
+struct Farthest {
+  float far_m = 0;
+  Eigen::Index point = 0;  ///< the first of those as far
+};
+
+// In two passes, since Eigen's search with an index has no vectors.
+Farthest farthest(const Eigen::Matrix<float, Eigen::Dynamic, 3>& points,
+                  const Vector3f& direction) {
+  const Eigen::VectorXf far_m = along(points, direction);
+  const float max_m = far_m.maxCoeff();
+  return {max_m, std::find(far_m.begin(), far_m.end(), max_m) - far_m.begin()};
+}
+
 Eigen::Index nearest(const Eigen::Matrix<float, Eigen::Dynamic, 3>& points, const Vector3f& to) {
   Eigen::Index found = 0;
   (points.rowwise() - to.transpose()).rowwise().squaredNorm().minCoeff(&found);
@@ -88,8 +101,7 @@ Extent::Extent(std::span<const Mesh> meshes, std::vector<Palette> poses)
     const Directions& directions = directions_.emplace_back(spread_directions(directions_.size()));
     std::vector<Reach>& reach = reach_.emplace_back();
     for (const Vector3f& direction : directions) {
-      Eigen::Index vertex = 0;
-      const float far_m = along(points, direction).maxCoeff(&vertex);
+      const auto [far_m, vertex] = farthest(points, direction);
       reach.push_back(
           {far_m, points.row(vertex).transpose(), *vertices[static_cast<std::size_t>(vertex)]});
     }
@@ -130,8 +142,8 @@ void Extent::compare(Fit& fit, std::size_t pose, float& max_off_m) const {
   for (const std::size_t d : fit.hot[pose]) {
     const Vector3f& direction = directions_[pose][d];
     const Reach& reach = reach_[pose][d];
-    Eigen::Index point = 0;
-    const float off_m = reach.far_m - along(points, direction).maxCoeff(&point);
+    auto [far_m, point] = farthest(points, direction);
+    const float off_m = reach.far_m - far_m;
     max_off_m = std::max(max_off_m, std::abs(off_m));
     if (std::abs(off_m) <= 0.5F * fit.slack_m) continue;
     // The missing part is where the finer body ends, not where the coarser one does.

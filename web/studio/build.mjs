@@ -152,8 +152,10 @@ function writeSources() {
     .join("");
   const table = `// Written by web/studio/build.mjs.  NOLINTBEGIN
 #include <array>
+#include <cstddef>
+#include <span>
 
-#include "server/api/studio.h"
+#include "server/http/studio_file.h"
 
 extern "C" {
 ${symbols}}

@@ -92,18 +92,18 @@ Borders count_borders(const Shot& shot, const std::vector<std::uint32_t>& labels
   std::vector<Border> borders;
   std::map<std::uint32_t, std::size_t> count;  // by label
   constexpr int kMargin = kReachPx + 1;
-  const auto add = [&](int x, int y, bool is_right) {
-    const std::uint32_t a = labels[pixels.at(x, y)];
-    const std::uint32_t b = labels[pixels.at(x + (is_right ? 1 : 0), y + (is_right ? 0 : 1))];
-    if (a == b || (is_person(a) || is_person(b)) != of_people) return;
+  const auto add = [&](std::uint32_t a, std::uint32_t b, int x, int y, bool is_right) {
+    if ((is_person(a) || is_person(b)) != of_people) return;
     borders.push_back({x, y, is_right});
     ++count[a];
     ++count[b];
   };
   for (int y = kMargin; y < pixels.height - kMargin; ++y) {
+    const std::uint32_t* row = &labels[pixels.at(0, y)];
+    const std::uint32_t* below = &labels[pixels.at(0, y + 1)];
     for (int x = kMargin; x < pixels.width - kMargin; ++x) {
-      add(x, y, true);
-      add(x, y, false);
+      if (row[x] != row[x + 1]) add(row[x], row[x + 1], x, y, true);
+      if (row[x] != below[x]) add(row[x], below[x], x, y, false);
     }
   }
   const auto objects = std::count_if(count.begin(), count.end(), [&](const auto& entry) {
