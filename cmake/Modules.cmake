@@ -4,9 +4,11 @@
 include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/JoinSources.cmake")
 
-# These compute: -O2 in releases, -O1 with sanitizers. The others run as fast with -O1 (release) or are compiled without
-# optimization (sanitizers), which takes two thirds of the time. Loops of a kernel (throng_kernels) have -O3.
+# How much the optimizer does in releases, by what a minute of it gives: these compute (-O2); these read, write and serve (-Og, half
+# of the time that -O2 takes to compile); all others have -O1. Loops of a kernel (throng_kernels) have -O3. With sanitizers those that
+# compute have -O1.
 set(THRONG_OPTIMIZED_MODULES base crowd camera sim skinning render annotate)
+set(THRONG_SERVING_MODULES spec jobs/queue jobs/bucket jobs/foxglove jobs/live jobs/study server cli/common cli/import cli)
 # These are optimized with sanitizers too: their tests look at every pixel.
 set(THRONG_PIXEL_MODULES annotate formats)
 # The modules that the fuzz targets (tests/fuzz) cover.
@@ -44,6 +46,8 @@ function(throng_module name)
       list(APPEND options -O1)
     elseif(CMAKE_BUILD_TYPE STREQUAL "Release" AND name IN_LIST THRONG_OPTIMIZED_MODULES)
       list(APPEND options -O2)
+    elseif(CMAKE_BUILD_TYPE STREQUAL "Release" AND name IN_LIST THRONG_SERVING_MODULES)
+      list(APPEND options -Og)
     elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
       list(APPEND options -O1)
     endif()

@@ -15,7 +15,7 @@ esac
 if [ -x "$root/build/release/cli/throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
 else
-  say "about MINUTES minutes on two cores to the first image: 3 for the packages, TIME to compile, one for characters and the job"
+  say "about 10 minutes on two cores to the first image: 2 for the packages, 7 to compile, one for characters and the job"
   echo "needs root or sudo, 5 GB of disk and 530 MB to download (1,130 Debian packages)"
 fi
 if [ -s "$people/population.json" ]; then "$root/scripts/setup.sh"; else "$root/scripts/setup.sh" --first; fi

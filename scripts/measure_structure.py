@@ -1,9 +1,15 @@
 #!/usr/bin/env python3
 """Measures the structure of the source code: sizes, public headers, cycles, function lengths, words, tests.
 
-usage: scripts/measure_structure.py [FOLDER...] >docs/reference/structure.md    (default: this checkout; two folders: before → after)
+usage: scripts/measure_structure.py [--compile BUILD] >docs/reference/structure.md
+       scripts/measure_structure.py BEFORE AFTER            two checkouts: before → after
 
-Prints a Markdown table of the folders of modules, and one of figures with a row per top-level folder with C++ sources. Columns:
+The first table, sizes, has the figures of the committed docs/reference/structure.md beside today's. --compile BUILD measures what
+compiling costs (scripts/compile_cost.py, some minutes on an idle machine); without it the committed figures stay. Modules that
+grew by more than a tenth are named on stderr: the commit's message says why.
+
+Then come a table of figures with a row per top-level folder with C++ sources, one of the headers that cost most, and one of the
+folders of modules. Columns of figures:
   .cpp, .h    number of files, each with its lines in the next column
   public      headers that the modules in the folder declare as PUBLIC
   folders     that hold them, and the files of the largest
@@ -13,16 +19,44 @@ Prints a Markdown table of the folders of modules, and one of figures with a row
   tests       lines of tests per line of product code
 """
 import collections
+import datetime
 import pathlib
 import re
 import subprocess
 import sys
 
 import check_language
+import compile_cost
 import module_rules
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+COMMITTED = "docs/reference/structure.md"
 APART = {"tests", "bench", "examples", "scripts"}
+# Parts of the repository that are no module: name, and paths as git lists them.
+PARTS = {
+    "product, C++": [
+        ":(exclude,top)tests",
+        ":(exclude)bench",
+        ":(exclude)examples",
+        ":(exclude)scripts",
+        "*.cpp",
+        "*.h",
+    ],
+    "product, shaders": ["*.glsl"],
+    "product, Python": ["python/*.py"],
+    "product, web": ["web/*.ts", "web/*.tsx", "web/*.js", "web/*.mjs", "web/*.css"],
+    "tests, C++": ["tests/*.cpp", "tests/*.h"],
+    "tests, Python": ["tests/*.py"],
+    "tests, web": ["tests/*.mjs", "tests/*.ts", "tests/*.js"],
+    "scripts, benchmarks, examples": [
+        "scripts/*.py",
+        "scripts/*.sh",
+        "scripts/*.cpp",
+        "scripts/*.h",
+        "bench/*",
+        "examples/*",
+    ],
+}
 SKIPPED = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'')
 FUNCTION = re.compile(
     r"\)\s*(?:const\s*)?(?:noexcept\s*)?(?:override\s*)?(?:final\s*)?(?:->\s*[\w:<>&*, ]+\s*)?"
@@ -183,20 +217,86 @@ def folder_rows(root):
             yield [name, folder.purpose, uses, str(files[folder.path])]
 
 
+def lines_of(patterns):
+    """Lines of the files that git lists for the patterns."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", *patterns], check=True, capture_output=True, encoding="utf-8", cwd=ROOT
+    ).stdout.split("\0")
+    return sum((ROOT / path).read_bytes().count(b"\n") for path in listed if path and (ROOT / path).is_file())
+
+
+def committed_rows():
+    """The first table of the committed page: {name: (lines, CPU seconds)}, and the line that says when that was measured."""
+    page = subprocess.run(["git", "show", f"HEAD:{COMMITTED}"], capture_output=True, encoding="utf-8", cwd=ROOT).stdout
+    sizes, _, rest = page.partition("\n## Figures")
+    rows = re.findall(r"^\| (\S[^|]*?) \| (\d+) \|[^|]*\| ([\d.]*) \|", sizes, re.M)
+    measured = re.search(r"^Compilers: .*", sizes, re.M)
+    headers = re.search(r"^## Headers\n.*?(?=^## )", rest, re.M | re.S)
+    return (
+        {name: (int(lines), float(cpu or 0)) for name, lines, cpu in rows},
+        measured[0] if measured else "Compilers: not measured yet.",
+        headers[0] if headers else "",
+    )
+
+
+def changed(now, before):
+    return f"{now - before:+}" if before and now != before else ""
+
+
+def size_rows(sums, before):
+    """Rows of the first table: modules, then the other parts. Names on stderr what grew by more than a tenth."""
+    top_folders = sorted({name.split("/")[0] for name in module_rules.Structure(ROOT).modules})
+    modules = {name: [f"{name}/*.cpp", f"{name}/*.h"] for name in top_folders}
+    for name, patterns in {**modules, **PARTS}.items():
+        lines = lines_of(patterns)
+        cpu_s = sum(s for module, s in sums.items() if module.split("/")[0] == name or name == "product, C++")
+        lines_before, cpu_before_s = before.get(name, (0, 0))
+        if lines_before and lines > 1.1 * lines_before:
+            print(f"{name}: {lines_before} → {lines} lines; say why in the commit's message", file=sys.stderr)
+        cpu = [f"{cpu_s:.0f}", changed(round(cpu_s), round(cpu_before_s))] if cpu_s else ["", ""]
+        yield [name, str(lines), changed(lines, lines_before), *cpu]
+
+
+def print_sizes(build):
+    """The first table. Returns the section about headers."""
+    before, measured, headers = committed_rows()
+    if build:
+        sums = compile_cost.cpu_seconds(build)
+        measured = (
+            f"Compilers: processor seconds of g++ for all programs without ccache, measured on {datetime.date.today()}."
+        )
+        seconds, files = compile_cost.header_seconds(build)
+        rows = "".join(f"| `{name}` | {s:.1f} | {files[name]} |\n" for name, s in seconds.most_common(20))
+        headers = (
+            "## Headers\n\nLibraries' headers that cost most: seconds of clang++ -O0 for those that the project's files include,"
+            f" and how many compiled files do.\n\n| header | s | files |\n|---|---|---|\n{rows}\n"
+        )
+    else:
+        sums = {name: cpu_s for name, (_, cpu_s) in before.items() if name not in PARTS}
+    print("## Sizes\n\nLines, and their change since the page was committed last. " + measured + "\n")
+    print_table(["part", "lines", "change", "compilers, s", "change"], size_rows(sums, before))
+    return headers
+
+
 def main():
-    roots = [pathlib.Path(folder).resolve() for folder in sys.argv[1:]] or [ROOT]
-    tables = [measure(root) for root in roots]
+    arguments = sys.argv[1:]
+    build = arguments.pop(1) if arguments[:1] == ["--compile"] else None
+    roots = [pathlib.Path(folder).resolve() for folder in arguments if folder != "--compile"] or [ROOT]
     print(
         "# Structure in figures\n\nMade by `scripts/measure_structure.py` (its head explains the columns); do not edit.\n"
     )
+    headers = print_sizes(build) if roots == [ROOT] else ""
+    print("\n## Figures\n")
+    tables = [measure(root) for root in roots]
     rows = []
     for module in tables[-1]:
         compared = [table.get(module, ["-"] * (len(HEAD) - 1)) for table in tables]
         cells = [values[0] if len(set(values)) == 1 else " → ".join(values) for values in zip(*compared)]
         rows.append([module, *cells])
     print_table(HEAD, rows)
+    print("\n" + headers, end="")
     print(
-        "\n## Folders\n\nModules are in bold, from the lowest layer to the highest, with the modules that they use; below them their folders.\n"
+        "## Folders\n\nModules are in bold, from the lowest layer to the highest, with the modules that they use; below them their folders.\n"
     )
     print_table(["folder", "purpose", "uses", "files"], folder_rows(roots[-1]))
 

@@ -44,7 +44,8 @@ void start_import(const std::string& kind, const CLI::App& command) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   ::execv(program.c_str(), pointers.data());
-  throw EnvironmentError("cannot start " + program.string() + ": " + std::strerror(errno));
+  throw EnvironmentError("cannot start " + program.string() + ": " + std::strerror(errno) +
+                         (errno == ENOENT ? " (scripts/setup.sh builds it)" : ""));
 }
 
 }  // namespace throng::cli
