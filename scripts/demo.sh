@@ -16,7 +16,7 @@ if [ -x "$root/build/release/cli/throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
 else
   say "about 10 minutes on two cores to the first image: 2 for the packages, 7 to compile, one for characters and the job"
-  echo "needs root or sudo, 5 GB of disk and 530 MB to download (1,130 Debian packages)"
+  echo "needs root or sudo, 5 GB of disk and 510 MB to download (1,040 Debian packages)"
 fi
 if [ -s "$people/population.json" ]; then "$root/scripts/setup.sh"; else "$root/scripts/setup.sh" --first; fi
 
