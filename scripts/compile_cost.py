@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Measures what compiling the product costs, one file after the other on each core, without ccache.
 
-usage: scripts/compile_cost.py modules BUILD    processor seconds of the compilers, by module
-       scripts/compile_cost.py headers BUILD    seconds that clang++ takes for the headers that the product's files include
+usage: scripts/compile_cost.py modules BUILD [TARGET]   processor seconds of the compilers, by module
+       scripts/compile_cost.py headers BUILD [TARGET]   seconds that clang++ takes for the headers that the product's files include
+
+TARGET: throng_programs if not given; throng_first is what the first image needs.
 
 BUILD is a configured build folder of the preset release. scripts/measure_structure.py --compile prints both as tables.
 """
@@ -18,14 +20,14 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TARGET = "throng_programs"
+ALL_PROGRAMS = "throng_programs"
 LAUNCHERS = re.compile(r"^(/usr/bin/env|CCACHE_\w+=.*|.*/ccache)$")
 
 
-def compile_commands(build):
-    """The commands that compile the programs' files: (module's folder, words)."""
+def compile_commands(build, target):
+    """The commands that compile the target's files: (module's folder, words)."""
     listed = subprocess.run(
-        ["ninja", "-C", build, "-t", "commands", TARGET], check=True, capture_output=True, encoding="utf-8"
+        ["ninja", "-C", build, "-t", "commands", target], check=True, capture_output=True, encoding="utf-8"
     ).stdout
     for line in listed.splitlines():
         words = shlex.split(line.split(" && ")[0])
@@ -40,7 +42,7 @@ def on_all_cores(function, items):
         return list(pool.map(function, items))
 
 
-def cpu_seconds(build):
+def cpu_seconds(build, target=ALL_PROGRAMS):
     """Processor seconds of the compiler by module."""
 
     def measure(item):
@@ -58,7 +60,7 @@ def cpu_seconds(build):
         return module, usage.ru_utime + usage.ru_stime
 
     sums = collections.Counter()
-    for module, seconds in on_all_cores(measure, compile_commands(build)):
+    for module, seconds in on_all_cores(measure, compile_commands(build, target)):
         sums[module] += seconds
     return sums
 
@@ -85,7 +87,7 @@ def traced_headers(events, own):
         stack.append((begin - negative_duration, path))
 
 
-def header_seconds(build):
+def header_seconds(build, target=ALL_PROGRAMS):
     """Seconds by library header, and the number of compiled files that include it."""
 
     def measure(item):
@@ -106,7 +108,7 @@ def header_seconds(build):
         return list(traced_headers(events, lambda path: path.startswith(str(ROOT)) or "/usr/" not in path))
 
     seconds, files = collections.Counter(), collections.Counter()
-    for headers in on_all_cores(measure, enumerate(compile_commands(build))):
+    for headers in on_all_cores(measure, enumerate(compile_commands(build, target))):
         for name, duration in headers:
             seconds[name] += duration
         files.update({name for name, _ in headers})
@@ -114,14 +116,14 @@ def header_seconds(build):
 
 
 def main():
-    kind, build = sys.argv[1:]
+    kind, build, target = [*sys.argv[1:], ALL_PROGRAMS][:3]
     if kind == "modules":
-        sums = cpu_seconds(build)
+        sums = cpu_seconds(build, target)
         for module, cpu_s in sums.most_common():
             print(f"{cpu_s:8.1f} {module}")
         print(f"{sum(sums.values()):8.1f} all")
     else:
-        seconds, files = header_seconds(build)
+        seconds, files = header_seconds(build, target)
         for name, duration_s in seconds.most_common(30):
             print(f"{duration_s:8.1f} s in {files[name]:3d} files: {name}")
 

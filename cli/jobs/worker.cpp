@@ -7,25 +7,14 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
-#include "camera/calibration/request.h"
 #include "cli/jobs/job_report.h"
-#include "cli/shell/commands.h"
-#include "jobs/pipeline/worker.h"
+#include "cli/jobs/processes.h"
 #include "jobs/queue/workers/worker_interface.h"
 #include "jobs/study/service_work.h"
 
 namespace throng::cli {
 
 namespace {
-
-void calibrate_in(const jobs::JobFolder& folder, const std::string& /*name*/,
-                  const jobs::OnTaskProgress& on_progress) {
-  calibrate::carry_out_in(folder.path(),
-                          [&](double share, const std::string& what) {
-                            on_progress({share, 1, what});
-                          },
-                          {});
-}
 
 void write_report(const jobs::JobFolder& folder, const std::string& /*name*/,
                   const jobs::OnTaskProgress& /*on_progress*/) {
@@ -43,15 +32,15 @@ void report_of_study(const jobs::JobFolder& folder, const std::string& /*name*/,
   study::report_in(folder.path());
 }
 
-jobs::OtherTasks other_tasks() {
+jobs::OtherTasks tasks_outside_of_plans() {
   return {{jobs::kStudyRunName, &simulate_of_study},
           {jobs::to_string({jobs::Task::Kind::study_report}), &report_of_study},
-          {jobs::to_string({jobs::Task::Kind::calibrate}), &calibrate_in},
           {jobs::to_string({jobs::Task::Kind::report}), &write_report}};
 }
 
 /// An attempt on a cluster's node: its supervisor reads the messages and the end from files.
-int run_attempt(const std::string& job_folder, const std::string& array) {
+int run_attempt(const std::string& job_folder, const std::string& array,
+                const jobs::OtherTasks& others) {
   const char* index = std::getenv("SLURM_ARRAY_TASK_ID");
   if (index == nullptr) {
     throw InputError(
@@ -64,14 +53,14 @@ int run_attempt(const std::string& job_folder, const std::string& array) {
     fmt::print(stderr, "throng: {}\n", error.what());
     return jobs::worker_not_begun;
   }
-  const int code = jobs::run_worker(job_folder, task, other_tasks());
+  const int code = jobs::run_worker(job_folder, task, others);
   jobs::end_attempt(job_folder, code);
   return code;
 }
 
 }  // namespace
 
-void add_worker(CLI::App& app) {
+void add_worker(CLI::App& app, const jobs::OtherTasks& others) {
   struct Arguments {
     std::string job_folder;
     std::string task;
@@ -88,12 +77,14 @@ void add_worker(CLI::App& app) {
       "Instead of --task: an array of the folder's attempts/; the index is $SLURM_ARRAY_TASK_ID");
   task->excludes(array);
   // The worker's exit codes: its supervisor retries only where that makes sense.
-  command->callback([arguments] {
+  jobs::OtherTasks all = tasks_outside_of_plans();
+  all.insert(others.begin(), others.end());
+  command->callback([arguments, all] {
     if (arguments->array.empty()) {
       if (arguments->task.empty()) throw CLI::RequiredError("--task or --array");
-      std::exit(jobs::run_worker(arguments->job_folder, arguments->task, other_tasks()));
+      std::exit(jobs::run_worker(arguments->job_folder, arguments->task, all));
     }
-    std::exit(run_attempt(arguments->job_folder, arguments->array));
+    std::exit(run_attempt(arguments->job_folder, arguments->array, all));
   });
 }
 

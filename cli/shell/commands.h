@@ -1,4 +1,5 @@
-// The subcommands of `throng`, one file each; program.cpp lists them in one table.
+// The subcommands that the first dataset needs, one file each; program.cpp lists them in one table.
+// cli/jobs/processes.h declares those that the program starts for itself, cli/more the others.
 #pragma once
 
 namespace CLI {
@@ -17,10 +18,6 @@ void add_schema(CLI::App& app);
 void add_render(CLI::App& app);
 void add_crowd(CLI::App& app);
 void add_serve(CLI::App& app);
-void add_worker(CLI::App& app);
-void add_confined(CLI::App& app);
-void add_live(CLI::App& app);
-void add_live_process(CLI::App& app);
 void add_people(CLI::App& app);
 void add_keys(CLI::App& app);
 void add_backup(CLI::App& app);  // backup, restore
@@ -35,17 +32,11 @@ void add_report(CLI::App& app);
 void add_export(CLI::App& app);
 void add_merge(CLI::App& app);
 void add_publish(CLI::App& app);
-void add_validate(CLI::App& app);
-void add_validate_crowd(CLI::App& app);
-void add_calibrate(CLI::App& app);
 void add_completion(CLI::App& app);
 void add_manual(CLI::App& app);
 
 // Subcommands of `throng people` in files of their own.
 void add_people_import(CLI::App& people);
 void add_people_sheet(CLI::App& people);
-
-// The subcommand of `throng calibrate` in a file of its own.
-void add_calibrate_selftest(CLI::App& calibrate);
 
 }  // namespace throng::cli

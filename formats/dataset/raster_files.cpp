@@ -59,6 +59,13 @@ fs::path raster_path(const fs::path& root, const char* kind, const std::string& 
   return (root / kind / rest).replace_extension(".png");
 }
 
+std::optional<Eigen::Vector2d> decode_flow(const std::uint16_t* sample) {
+  constexpr double kPerPixel = 64;
+  constexpr double kZero = 32768;
+  if (sample[2] == 0) return std::nullopt;
+  return Eigen::Vector2d(sample[0] - kZero, sample[1] - kZero) / kPerPixel;
+}
+
 std::vector<float> depth_meters(const images::Raster& depth) {
   constexpr float kMetersPerUnit = 0.01F;
   std::vector<float> meters;

@@ -1,8 +1,10 @@
 // Files of a dataset with values per pixel: paths, instances and semantic classes.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,9 @@ std::vector<std::uint32_t> read_instances(const std::filesystem::path& path, int
 /// images::read_raster(), and for another kind of PNG, another size and values that are no class.
 std::vector<world::SemanticClass> read_classes(const std::filesystem::path& path, int width,
                                                int height);
+
+/// The motion (px) in a sample of flow/ or flow_backward/; std::nullopt if it is unknown.
+std::optional<Eigen::Vector2d> decode_flow(const std::uint16_t* sample);
 
 /// Depth in meters of a raster of depth/; infinity where nothing is.
 std::vector<float> depth_meters(const images::Raster& depth);

@@ -8,7 +8,6 @@
 #include "annotate/rasters/png.h"
 #include "formats/dataset/raster_files.h"
 #include "formats/export/makers.h"
-#include "formats/validate/pixels.h"
 
 namespace throng::formats {
 

@@ -106,13 +106,6 @@ std::vector<std::uint16_t> read_plane(const DatasetInfo& info, const Image& imag
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> decode_flow(const std::uint16_t* sample) {
-  constexpr double kPerPixel = 64;
-  constexpr double kZero = 32768;
-  if (sample[2] == 0) return std::nullopt;
-  return Eigen::Vector2d(sample[0] - kZero, sample[1] - kZero) / kPerPixel;
-}
-
 std::string raster_name(const char* kind, const Image& image) {
   return raster_path("", kind, image.file).string();
 }

@@ -58,9 +58,6 @@ struct Pixels {
 /// missing, damaged or of another size or kind.
 Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findings);
 
-/// The motion (px) in a sample of flow/ or flow_backward/; std::nullopt if it is unknown.
-std::optional<Eigen::Vector2d> decode_flow(const std::uint16_t* sample);
-
 /// The path of an image's raster: "depth/run000/d1/000003.png".
 std::string raster_name(const char* kind, const Image& image);
 

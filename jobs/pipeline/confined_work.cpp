@@ -11,7 +11,6 @@
 #include "base/files/files.h"
 #include "base/files/unpack.h"
 #include "base/graphics/drawing/drawing.h"
-#include "camera/calibration/request.h"
 #include "jobs/pipeline/checks/catalog.h"
 #include "jobs/pipeline/checks/job_check.h"
 #include "jobs/pipeline/checks/resolve.h"
@@ -89,12 +88,6 @@ json read_blueprint(const json& request) {
            std::filesystem::exists(file) ? scenarios::load_blueprint(file) : json(nullptr)}};
 }
 
-json check_calibration(const json& request) {
-  const calibrate::Request checked =
-      calibrate::request_from_json(request.at("request"), text_at(request, "files"));
-  return {{"max_image_pixels", calibrate::max_image_pixels(checked)}};
-}
-
 using Work = std::pair<const char*, json (*)(const json&)>;
 constexpr std::array kWork = {
     Work{"unpack", &unpack_bundle},
@@ -105,20 +98,21 @@ constexpr std::array kWork = {
     Work{"job_plan", &draw_job},
     Work{"summaries", &describe_scenarios},
     Work{"blueprint", &read_blueprint},
-    Work{"calibration", &check_calibration},
     Work{"catalog", [](const json&) { return catalog(); }},
     Work{"people", [](const json&) { return people_catalog(); }},
 };
 
 }  // namespace
 
-json do_confined_work(const json& request,
-                      const std::map<std::string, std::function<json(const json&)>>& others) {
+json do_confined_work(const json& request, const ConfinedWork& others) {
   const std::string task = text_at(request, "task");
   if (const auto other = others.find(task); other != others.end()) return other->second(request);
   const auto* found = std::find_if(kWork.begin(), kWork.end(),
                                    [&](const Work& work) { return task == work.first; });
-  check(found != kWork.end(), "the server asks for tasks that there are");
+  if (found == kWork.end()) {
+    throw EnvironmentError("this program does not have the work \"" + task +
+                           "\" (scripts/setup.sh builds the one that has all)");
+  }
   return found->second(request);
 }
 

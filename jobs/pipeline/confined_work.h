@@ -9,6 +9,9 @@
 
 namespace throng::jobs {
 
+/// Work of modules above this one, by the task that a request names: gives the answer.
+using ConfinedWork = std::map<std::string, std::function<nlohmann::json(const nlohmann::json&)>>;
+
 /// Performs a request according to its member "task". "scenarios" and "files" are paths of folders.
 ///   unpack         unpacks the file "bundle" into the folder "unpacked" within "limits"
 ///   scenarios      checks the scenarios in "folder": CheckedScenarios
@@ -20,13 +23,10 @@ namespace throng::jobs {
 ///                  the result of scenario_summary() or an "error"
 ///   blueprint      reads the blueprint of the scenario "id" in "scenarios", merged with the ones
 ///                  that it extends: {"blueprint"}; null if there is none
-///   calibration    checks the calibration "request" with its "files": {"max_image_pixels"}
 ///   catalog        returns catalog() (checks/catalog.h)
 ///   people         returns people_catalog() (checks/catalog.h)
-/// Other names are looked up in `others`, which holds the work of modules above this one. Throws
-/// InputError and EnvironmentError.
-nlohmann::json do_confined_work(
-    const nlohmann::json& request,
-    const std::map<std::string, std::function<nlohmann::json(const nlohmann::json&)>>& others = {});
+/// Other names are looked up in `others`; a name that is not there, either, is an EnvironmentError:
+/// this program does not have that work. Throws InputError and EnvironmentError.
+nlohmann::json do_confined_work(const nlohmann::json& request, const ConfinedWork& others = {});
 
 }  // namespace throng::jobs

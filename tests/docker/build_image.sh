@@ -39,10 +39,12 @@ start=$SECONDS
 buildah inspect --type image "$base" >/dev/null 2>&1 || make_base
 echo "base image: $((SECONDS - start)) s"
 start=$SECONDS
-# Files that this machine has compiled before are not compiled again: the cache of docker/Dockerfile's build step.
-cache="$TMPDIR/buildah-cache-$(id -u)"
-mkdir -p "$cache" "${CCACHE_DIR:-$HOME/.cache/ccache}"
-[ -e "$cache/throng-ccache" ] || ln -s "${CCACHE_DIR:-$HOME/.cache/ccache}" "$cache/throng-ccache"
+# Files that this machine has compiled before are not compiled again: the cache of docker/Dockerfile's build step. Debian 12's
+# buildah keeps caches in the first folder, newer ones in the second.
+for cache in "$TMPDIR/buildah-cache" "$TMPDIR/buildah-cache-$(id -u)"; do
+  mkdir -p "$cache" "${CCACHE_DIR:-$HOME/.cache/ccache}"
+  [ -e "$cache/throng-ccache" ] || ln -s "${CCACHE_DIR:-$HOME/.cache/ccache}" "$cache/throng-ccache"
+done
 git -C "$root" ls-files -z --cached --others --exclude-standard >"$store/files"
 rm -rf "$store/context"
 mkdir -p "$store/context"

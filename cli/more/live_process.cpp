@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/shell/commands.h"
+#include "cli/more/more_commands.h"
 #include "jobs/live/session.h"
 
 namespace throng::cli {

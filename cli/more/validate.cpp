@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/text/words.h"
-#include "cli/shell/commands.h"
+#include "cli/more/more_commands.h"
 #include "cli/shell/input_file.h"
 
 namespace throng::cli {

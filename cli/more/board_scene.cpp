@@ -1,4 +1,4 @@
-#include "cli/assets/board_scene.h"
+#include "cli/more/board_scene.h"
 
 #include <fmt/core.h>
 

@@ -13,7 +13,7 @@
 #include "camera/calibration/request.h"
 #include "camera/calibration/residual_plot.h"
 #include "camera/calibration/result.h"
-#include "cli/shell/commands.h"
+#include "cli/more/more_commands.h"
 #include "cli/shell/input_file.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress_bar.h"

@@ -13,7 +13,7 @@
 #include "base/graphics/drawing/drawing.h"
 #include "base/text/suggest.h"
 #include "cli/crowd/crowd_options.h"
-#include "cli/shell/commands.h"
+#include "cli/more/more_commands.h"
 #include "cli/shell/file_kind.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress_bar.h"

@@ -1,4 +1,4 @@
-#include "cli/shell/program.h"
+#include "cli/program.h"
 
 #include <fmt/core.h>
 
@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "cli/common/exit_code.h"
+#include "cli/jobs/processes.h"
 #include "cli/shell/command_line.h"
 #include "cli/shell/commands.h"
 #include "cli/shell/parse_error.h"
@@ -17,20 +18,21 @@ namespace throng::cli {
 namespace {
 
 constexpr std::array kCommands = {
-    add_run,      add_check,     add_simulate,       add_live,           add_render,
-    add_crowd,    add_serve,     add_keys,           add_backup,         add_remote_jobs,
-    add_worker,   add_confined,  add_live_process,   add_people,         add_scenarios,
-    add_scenario, add_airframes, add_study,          add_schema,         add_export,
-    add_merge,    add_publish,   add_validate,       add_validate_crowd, add_metrics,
-    add_report,   add_calibrate, add_remote_studies, add_completion,     add_manual};
+    add_run,       add_check,  add_simulate,       add_render,     add_crowd,     add_serve,
+    add_keys,      add_backup, add_remote_jobs,    add_people,     add_scenarios, add_scenario,
+    add_airframes, add_study,  add_schema,         add_export,     add_merge,     add_publish,
+    add_metrics,   add_report, add_remote_studies, add_completion, add_manual};
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, const Extension& extension) {
   CLI::App app{"Synthetic crowd datasets: simulate a crowd and drones, render, annotate."};
   app.footer(
       "Exit codes: 0 done, 2 the input is wrong, 3 the machine failed (retry), 130 cancelled.");
   app.set_version_flag("--version", std::string(kGenerator));
   app.require_subcommand(1);
   for (const auto add : kCommands) add(app);
+  for (const auto add : extension.commands) add(app);
+  add_worker(app, extension.tasks);
+  add_confined(app, extension.confined_work);
   if (argc == 1) {
     fmt::print("{}", app.help());
     return exit_ok;
@@ -55,8 +57,8 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int run_throng(int argc, char** argv) {
-  return run_program([&] { return run(argc, argv); });
+int run_throng(int argc, char** argv, const Extension& extension) {
+  return run_program([&] { return run(argc, argv, extension); });
 }
 
 }  // namespace throng::cli

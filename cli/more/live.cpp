@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "cli/jobs/job_runner.h"
-#include "cli/shell/commands.h"
+#include "cli/more/more_commands.h"
 #include "cli/shell/file_kind.h"
 #include "cli/shell/input_file.h"
 #include "cli/shell/interrupt.h"

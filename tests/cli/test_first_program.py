@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""`throng_first`, the program that scripts/demo.sh has first: it makes the same dataset as `throng`, and says which program does
+what it cannot do.
+
+usage: test_first_program.py THRONG FIRST
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FIRST = sys.argv.pop(2)
+THRONG = sys.argv.pop(1)
+JOB = {
+    "scenario": "bridge/everyday",
+    "quality": "draft",
+    "drones": [{"id": "d1", "start": [0, -10, 20], "camera": {"width": 160, "height": 120, "pitch_deg": -60}}],
+    "capture": {"from_s": 1, "to_s": 2, "rate_hz": 1},
+}
+
+
+def commands(program):
+    """The commands that the help lists."""
+    text = subprocess.run([program, "--help"], check=True, capture_output=True, text=True).stdout
+    return {
+        line.split()[0]
+        for line in text.split("Subcommands:")[1].splitlines()
+        if line.startswith("  ") and line[2] != " "
+    }
+
+
+class FirstProgram(unittest.TestCase):
+    def test_it_makes_the_same_dataset(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "job.json").write_text(json.dumps(JOB))
+            contents = []
+            for name, program in (("first", FIRST), ("whole", THRONG)):
+                subprocess.run(
+                    [program, "run", folder / "job.json", "-o", folder / name], check=True, capture_output=True
+                )
+                dataset = folder / name / "dataset"
+                files = [path for path in sorted(dataset.rglob("*")) if path.is_file()]
+                contents.append({str(path.relative_to(dataset)): path.read_bytes() for path in files})
+            self.assertGreater(len(contents[0]), 5)
+            self.assertEqual(contents[0], contents[1])
+
+    def test_it_lacks_only_what_the_first_image_does_not_need(self):
+        missing = commands(THRONG) - commands(FIRST)
+        self.assertEqual(missing, {"calibrate", "live", "validate", "validate-crowd"})
+        self.assertEqual(commands(FIRST) - commands(THRONG), set())
+
+    def test_work_that_it_lacks_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            request = {"task": "calibration", "request": {}, "files": folder}
+            (pathlib.Path(folder) / "request.json").write_text(json.dumps(request))
+            subprocess.run([FIRST, "confined", folder], capture_output=True, check=False)
+            answer = (pathlib.Path(folder) / "answer.json").read_text()
+            self.assertIn("does not have the work", answer)
+            self.assertIn("scripts/setup.sh", answer)
+
+
+if __name__ == "__main__":
+    unittest.main()
