@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
@@ -50,7 +51,7 @@ class RunningService {
         keys_(data_),
         hooks_(service_.queue(), data_),
         api_(service_, keys_, hooks_, {}),
-        job_(service_.queue().submit({kJobText}).row.id),
+        job_(service_.queue().submit({nlohmann::json::parse(kJobText)}).row.id),
         thread_([this] { api_.run(); }) {}
   ~RunningService() {
     api_.stop();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "base/error.h"
 #include "crowd/behavior.h"
@@ -74,7 +75,8 @@ Simulation::State::State(const SceneDescription& scene_description,
   if (options.separation == BodySeparation::hard) separation = std::make_unique<Separation>(crowd);
   if (options.physical.on) bodies = std::make_unique<Bodies>(options.physical, count);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
-  machine->start(crowd, options.can_step);
+  machine->start(crowd);
+  if (options.can_step) machine->prepare_to_step(crowd);
   warnings = scene.warnings();
   warnings.insert(warnings.end(), behavior.warnings().begin(), behavior.warnings().end());
 }
@@ -113,6 +115,11 @@ Simulation::Simulation(const SceneDescription& scene, const BehaviorDescription&
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::prepare_to_step() {
+  if (std::exchange(state_->options.can_step, true)) return;
+  state_->machine->prepare_to_step(state_->crowd);
+}
 
 void Simulation::step() {
   check(state_->options.can_step, "this crowd was loaded for stepping");
@@ -220,6 +227,10 @@ void Simulation::set_present(std::size_t agent, bool present) {
 
 void Simulation::strike(std::size_t agent, const Eigen::Vector2f& impulse_ns) {
   if (state_->bodies) state_->bodies->strike(agent, impulse_ns);
+}
+
+bool Simulation::has_goal(int set, int goal) const {
+  return state_->crowd.goals.find_goal(set, goal) >= 0;
 }
 
 void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& center) {

@@ -37,6 +37,8 @@ class Simulation {
   /// Returns the parts of the descriptions that were ignored.
   const std::vector<Problem>& warnings() const;
 
+  /// Makes a crowd that was loaded without LoadOptions::can_step one that can.
+  void prepare_to_step();
   /// Advances time by dt_s().
   void step();
 
@@ -89,6 +91,7 @@ class Simulation {
   /// Applies an impulse (N s) to an agent during the next step; ignored unless Physical::on.
   void strike(std::size_t agent, const Eigen::Vector2f& impulse_ns);
 
+  bool has_goal(int set, int goal) const;
   /// Moves the center of a goal, e.g. to a drone. Throws InputError if there is no such goal.
   void move_goal(int set, int goal, const Eigen::Vector2f& center);
 

@@ -28,7 +28,8 @@ struct LoadOptions {
   double compliance = 1;  ///< multiplies the probability that a person follows a guide
   Physical physical = {};
   /// False for a crowd whose people are only counted and found where they start: without the meshes
-  /// of their paths, which take most of the time. It faces nowhere, and step() must not be called.
+  /// of their paths, which take most of the time. It faces nowhere; Simulation::prepare_to_step()
+  /// completes it.
   bool can_step = true;
 };
 

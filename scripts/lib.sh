@@ -3,7 +3,9 @@
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 people="$root/build/people"
+# shellcheck disable=SC2034  # the scripts that source this use it
 built_throng="$root/build/release/cli/throng"
+# shellcheck disable=SC2034
 first_throng="$root/build/release/first/throng"  # without what the first image does not need (scripts/demo.sh)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }

@@ -230,7 +230,7 @@ def committed_rows():
     page = subprocess.run(["git", "show", f"HEAD:{COMMITTED}"], capture_output=True, encoding="utf-8", cwd=ROOT).stdout
     sizes, _, rest = page.partition("\n## Figures")
     rows = re.findall(r"^\| (\S[^|]*?) \| (\d+) \|[^|]*\| ([\d.]*) \|", sizes, re.M)
-    measured = re.search(r"^Compilers: .*", sizes, re.M)
+    measured = re.search(r"Compilers: .*", sizes)
     headers = re.search(r"^## Headers\n.*?(?=^## )", rest, re.M | re.S)
     return (
         {name: (int(lines), float(cpu or 0)) for name, lines, cpu in rows},

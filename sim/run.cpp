@@ -58,10 +58,8 @@ std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
   return spec.compat == crowd::Compat::none ? "ttc" : "orca";
 }
 
-namespace {
-
-crowd::Simulation load(const world::Scenario& scenario, std::uint64_t seed, const CrowdSpec& spec,
-                       bool can_step) {
+crowd::Simulation load_people(const world::Scenario& scenario, std::uint64_t seed,
+                              const CrowdSpec& spec) {
   const crowd::CrowdDescription description = world::build_crowd(scenario);
   crowd::LoadOptions options;
   options.seed = seed;
@@ -71,27 +69,16 @@ crowd::Simulation load(const world::Scenario& scenario, std::uint64_t seed, cons
   options.constants = spec.constants;
   options.compliance = spec.compliance;
   options.physical = spec.physical;
-  options.can_step = can_step;
+  options.can_step = false;
   return {description.scene, description.behavior, options};
-}
-
-}  // namespace
-
-crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
-                             const CrowdSpec& spec) {
-  return load(scenario, seed, spec, true);
-}
-
-crowd::Simulation load_people(const world::Scenario& scenario, std::uint64_t seed,
-                              const CrowdSpec& spec) {
-  return load(scenario, seed, spec, false);
 }
 
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
                               RunObserver& observer, const RunProgress& progress,
-                              const std::stop_token& stop) {
+                              const std::stop_token& stop,
+                              std::optional<crowd::Simulation> people) {
   WatchedRun watched(scenario, spec, observer);
-  SteppedRun run(scenario, spec, watched);
+  SteppedRun run(scenario, spec, watched, std::move(people));
   constexpr double kRounding = 1e-9;
   const auto steps = static_cast<long>(std::ceil(spec.duration_s / run.dt_s() - kRounding));
   for (long step = 1; step <= steps && !observer.done(); ++step) {

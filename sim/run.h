@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -21,21 +22,21 @@ namespace throng::sim {
 /// `compat` mode and `ttc` otherwise.
 std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec);
 
-/// Loads the crowd of a run in its initial state. Throws as crowd::Simulation's constructor.
-crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
-                             const CrowdSpec& spec);
-/// The same people, to be counted and found where they start (crowd::LoadOptions::can_step).
+/// Loads the people of a run, to be counted and found where they start: prepare_to_step() makes
+/// them the crowd of the run. Throws as crowd::Simulation's constructor.
 crowd::Simulation load_people(const world::Scenario& scenario, std::uint64_t seed,
                               const CrowdSpec& spec);
 
 /// Receives the simulated seconds so far and in total.
 using RunProgress = std::function<void(double done_s, double total_s)>;
 
-/// Simulates one run and reports it to `observer`, until the end or until observer.done(). Returns
-/// warnings and throws as the overload below.
+/// Simulates one run and reports it to `observer`, until the end or until observer.done().
+/// `people` are load_people() of this run, which are loaded unless given. Returns warnings and
+/// throws as the overload below.
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
                               RunObserver& observer, const RunProgress& progress = {},
-                              const std::stop_token& stop = {});
+                              const std::stop_token& stop = {},
+                              std::optional<crowd::Simulation> people = std::nullopt);
 
 /// Simulates one run and writes its trace to `trace_file`, which is complete or absent afterwards;
 /// equal scenarios and specs give equal bytes. With a `pilot_log_folder`, also writes each drone's

@@ -152,14 +152,18 @@ struct Checked {
 };
 
 Checked checked(const world::Scenario& scenario, const RunSpec& spec,
-                std::vector<Problem>& problems) {
+                std::optional<crowd::Simulation> loaded, std::vector<Problem>& problems) {
   check_times(spec, problems);
   check_exits(scenario, problems);
   Checked run;
   std::vector<Problem> of_people;
-  StartingPeople people = starting_people(scenario, spec, of_people);
+  StartingPeople people = starting_people(scenario, spec, of_people, std::move(loaded));
   std::vector<DroneMission> missions = spec.drones;
-  aim_drones(scenario, people.places(), spec.seed, missions, problems);
+  if (has_aims(spec)) {
+    const auto places =
+        starting_places(scenario, spec, people.crowd->positions(), people.crowd->present());
+    aim_drones(scenario, places, spec.seed, missions, problems);
+  }
   run.drones = plan_drones(scenario, missions, spec.duration_s, problems);
   problems.insert(problems.end(), of_people.begin(), of_people.end());
   run.crowd = std::move(people.crowd);
@@ -218,10 +222,10 @@ struct SteppedRun::State {
   long steps = 0;  ///< that are done
 };
 
-SteppedRun::SteppedRun(const world::Scenario& scenario, const RunSpec& spec,
-                       RunObserver& observer) {
+SteppedRun::SteppedRun(const world::Scenario& scenario, const RunSpec& spec, RunObserver& observer,
+                       std::optional<crowd::Simulation> people) {
   std::vector<Problem> problems;
-  Checked run = checked(scenario, spec, problems);
+  Checked run = checked(scenario, spec, std::move(people), problems);
   std::vector<std::uint8_t> there;
   PropWatch props(scenario);
   props.look(run.crowd->positions(), people_there(*run.crowd, run.roles, there), 0);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/error.h"
+#include "crowd/simulation.h"
 #include "sim/policies/planned_drone.h"
 #include "sim/run_observer.h"
 #include "sim/vehicle/pilot.h"
@@ -17,8 +19,10 @@ namespace throng::sim {
 class SteppedRun {
  public:
   /// Checks the specification and reports the start of the run to the observer. `scenario` and
-  /// `observer` must outlive the run. Throws InputError as simulate().
-  SteppedRun(const world::Scenario& scenario, const RunSpec& spec, RunObserver& observer);
+  /// `observer` must outlive the run. `people` are load_people() of this run, which are loaded
+  /// unless given. Throws InputError as simulate().
+  SteppedRun(const world::Scenario& scenario, const RunSpec& spec, RunObserver& observer,
+             std::optional<crowd::Simulation> people = std::nullopt);
   ~SteppedRun();
   SteppedRun(const SteppedRun&) = delete;
   SteppedRun& operator=(const SteppedRun&) = delete;

@@ -29,7 +29,7 @@ void add_check(CLI::App& app) {
   command->footer("Exit code 0 with warnings, 2 with errors.");
   command->callback([file, as_json] {
     nlohmann::json answer =
-        to_json(jobs::check_job(read_job_text(*file), *file, world::scenarios_folder()));
+        to_json(jobs::check_job(load_job_document(*file), *file, world::scenarios_folder()));
     jobs::fit_to_machine(answer, jobs::user_speed_file());
     const std::filesystem::path here = std::filesystem::current_path();
     std::error_code error;  // a disk that cannot be measured has the largest number free

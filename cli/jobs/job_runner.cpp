@@ -28,6 +28,7 @@
 #include "spec/calibration/calibrations.h"
 #include "spec/calibration/foreign/read_camera_file.h"
 #include "spec/estimates/task_memory.h"
+#include "spec/job/spec.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
@@ -121,15 +122,16 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
   add_executor_options(command, arguments.executor);
 }
 
-std::string read_job_text(const std::string& path) {
-  const std::string text = read_job_document(path);
+nlohmann::json load_job_document(const std::string& path) {
+  nlohmann::json job = jobs::parse_job_document(read_job_document(path), path);
   // A calibration is a file, named from where the job's file is.
   const auto camera_in = [&](const std::string& name) {
     const std::filesystem::path file = std::filesystem::path(path).parent_path() / name;
     return calibrate::to_json(calibrate::read_camera_file(file));
   };
   try {
-    return jobs::with_calibrations(text, camera_in);
+    jobs::put_calibrations(job, camera_in);
+    return job;
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {
@@ -140,7 +142,8 @@ std::string read_job_text(const std::string& path) {
 }
 
 jobs::ResolvedJob read_job_file(const std::string& path, jobs::DefaultDrones default_drones) {
-  return jobs::resolve_job(read_job_text(path), path, world::scenarios_folder(), default_drones);
+  return jobs::resolve_job(load_job_document(path), path, world::scenarios_folder(),
+                           default_drones);
 }
 
 jobs::ResolvedJob with_target(const jobs::ResolvedJob& resolved, const JobArguments& arguments) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "jobs/pipeline/checks/resolve.h"
@@ -25,9 +26,9 @@ struct JobArguments {
 /// `arguments` must outlive the command.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 
-/// The job file's text, with calibration files that it names replaced by their cameras. Throws
+/// The job file's document, with calibration files that it names replaced by their cameras. Throws
 /// InputError if the file does not exist or is not a job.
-std::string read_job_text(const std::string& path);
+nlohmann::json load_job_document(const std::string& path);
 
 /// Reads the job file and resolves the job. Throws InputError, also if the file does not exist.
 jobs::ResolvedJob read_job_file(

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files/files.h"
@@ -65,10 +66,8 @@ jobs::JobSpec job_for(const world::Trace& trace, const RenderArguments& argument
   const auto kept =
       world::scenario_in_trace(trace.header, arguments.trace_file, world::TraceMeshes::needed);
   if (!kept) return job_of_trace(read_job_file(arguments.job_file).spec(), trace);
-  std::vector<Problem> problems;
-  jobs::JobSpec job =
-      jobs::parse_job(read_job_text(arguments.job_file), arguments.job_file, problems);
-  if (!problems.empty()) throw InputError(std::move(problems));
+  const jobs::JobSpec job =
+      jobs::check_and_read_job(load_job_document(arguments.job_file), arguments.job_file);
   return jobs::resolve(job_of_trace(job, trace), *kept, arguments.job_file).spec();
 }
 

@@ -16,13 +16,16 @@ constexpr std::size_t kDecisionGrain = 256;  // agents per task
 Machine::Machine(Behavior behavior, std::size_t agent_count)
     : behavior_(std::move(behavior)), due_(agent_count, kNone) {}
 
-void Machine::start(Crowd& crowd, bool can_step) {
+void Machine::start(Crowd& crowd) {
   Agents& agents = crowd.agents;
   for (std::size_t i = 0; i < agents.count(); ++i) {
     agents.previous_state[i] = agents.state[i];
     if (agents.present[i] != 0) enter(crowd, i, agents.state[i]);
   }
-  if (!can_step) return;
+}
+
+void Machine::prepare_to_step(Crowd& crowd) {
+  Agents& agents = crowd.agents;
   for (const auto& process : behavior_.processes) process->before_start(crowd);
   prefer(crowd);
   for (std::size_t i = 0; i < agents.count(); ++i) face_the_way(agents, i);

@@ -13,9 +13,12 @@ class Machine {
  public:
   explicit Machine(Behavior behavior, std::size_t agent_count);
 
-  /// Puts each present agent into its initial state and, if it `can_step`, makes it face its
-  /// preferred direction.
-  void start(Crowd& crowd, bool can_step);
+  /// Puts each present agent into its initial state.
+  void start(Crowd& crowd);
+
+  /// Before the first step: begins the processes, and makes each agent face its preferred
+  /// direction.
+  void prepare_to_step(Crowd& crowd);
 
   /// Takes all transitions whose conditions hold. The first conditions are evaluated for all agents
   /// in the same state of the crowd; then agents change states in the order of their ids, because

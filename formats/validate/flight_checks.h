@@ -13,6 +13,9 @@
 
 namespace throng::formats {
 
+/// Greatest speed with which a drone flies or falls against something.
+inline constexpr double kMaxImpactMps = 25;
+
 /// True state and sensor readings at one time, in m, m/s, rad/s, m/s², µT and Pa. Rates, specific
 /// force, gyro, accelerometer and magnetometer are in the body frame.
 struct SensorSample {

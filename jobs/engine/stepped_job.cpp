@@ -6,7 +6,6 @@
 
 #include "base/compute/parallel.h"
 #include "base/error.h"
-#include "base/json/json_text.h"
 #include "jobs/engine/newest_step.h"
 #include "jobs/live/onboard_camera.h"
 #include "jobs/live/replay_job.h"
@@ -16,6 +15,7 @@
 #include "sim/recording/gimbal_setpoints.h"
 #include "skinning/population.h"
 #include "spec/job/scenario_mix.h"
+#include "spec/job/spec.h"
 #include "world/scenario.h"
 
 namespace throng::engine {
@@ -25,19 +25,11 @@ using nlohmann::json;
 
 namespace {
 
-/// The text of the job with another seed.
-std::string seeded(std::string_view text, const std::string& source,
-                   const std::optional<std::uint64_t>& seed) {
-  if (!seed) return std::string(text);
-  json job = parse_json(text, source);
-  if (job.is_object()) job["seed"] = *seed;
-  return job.dump();
-}
-
 jobs::JobSpec read_job(std::string_view text, const std::string& source,
                        const RunChoices& choices) {
-  return jobs::resolve_job(seeded(text, source, choices.seed), source, world::scenarios_folder())
-      .spec();
+  json job = jobs::parse_job_document(text, source);
+  if (choices.seed && job.is_object()) job["seed"] = *choices.seed;
+  return jobs::resolve_job(job, source, world::scenarios_folder()).spec();
 }
 
 }  // namespace

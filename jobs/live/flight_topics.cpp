@@ -102,7 +102,7 @@ FlightTopics::FlightTopics(const jobs::JobSpec& job, const Flight& flight,
       radii_m_(flight.header().radius_m),
       statures_m_(std::move(statures_m)) {
   const jobs::JobSpec run_job = jobs::job_of_run(job, 0);
-  const std::uint64_t seed = jobs::plan_runs(job).front().seed;
+  const std::uint64_t seed = jobs::run_seed(job, 0);
   latitude_deg_ = jobs::environment_of_run(run_job.environment, seed).latitude_deg;
   const std::vector<std::string> names = ros_names(flight);
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -22,7 +22,7 @@ render::RenderOptions draft() {
 }
 
 jobs::RunEnvironment flight_environment(const jobs::JobSpec& job) {
-  const std::uint64_t seed = jobs::plan_runs(job).front().seed;
+  const std::uint64_t seed = jobs::run_seed(job, 0);
   return jobs::environment_of_run(jobs::job_of_run(job, 0).environment, seed);
 }
 
@@ -31,7 +31,7 @@ jobs::RunEnvironment flight_environment(const jobs::JobSpec& job) {
 OnboardCamera::Surroundings OnboardCamera::place_of(const jobs::JobSpec& whole_job,
                                                     world::Scenario scenario) {
   const jobs::JobSpec job = jobs::job_of_run(whole_job, 0);
-  const std::uint64_t seed = jobs::plan_runs(job).front().seed;
+  const std::uint64_t seed = jobs::run_seed(job, 0);
   world::thin_out(scenario, job.props_density, seed);
   return {std::move(scenario), flight_environment(whole_job).light, clothing(whole_job)};
 }

@@ -17,6 +17,7 @@
 #include "jobs/pipeline/checks/scenario_check.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
+#include "sim/planning/aimed_start.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/scenarios/scenario_summary.h"
@@ -45,13 +46,13 @@ json unpack_bundle(const json& request) {
   return json::object();
 }
 
-json resolve_text(const json& request) {
-  const ResolvedJob job = resolve_job(text_at(request, "job"), "", text_at(request, "scenarios"));
+json resolve_document(const json& request) {
+  const ResolvedJob job = resolve_valid_job(request.at("job"), "", text_at(request, "scenarios"));
   return {{"job", to_json(job.spec())}, {"load", job.load()}};
 }
 
 json dry_run(const json& request) {
-  return to_json(check_job(text_at(request, "job"), "", text_at(request, "scenarios")));
+  return to_json(check_job(request.at("job"), "", text_at(request, "scenarios")));
 }
 
 json draw_scenario(const json& request) {
@@ -63,7 +64,8 @@ json draw_scenario(const json& request) {
 json draw_job(const json& request) {
   const JobSpec job = in_scenario_of_run(read_resolved_job(text_at(request, "job"), "").spec(), 0);
   const world::Scenario scenario = load_job_scenario(job, text_at(request, "scenarios"));
-  const auto paths = sim::planned_paths(scenario, run_spec(job, 0));
+  const sim::RunSpec run = run_spec(job, 0);
+  const auto paths = sim::planned_paths(scenario, run, sim::people_to_aim_at(scenario, run));
   return {{"svg", drawing::to_svg(scenarios::draw_plan(scenario, kPlanPx, paths))}};
 }
 
@@ -92,7 +94,7 @@ using Work = std::pair<const char*, json (*)(const json&)>;
 constexpr std::array kWork = {
     Work{"unpack", &unpack_bundle},
     Work{"scenarios", &check_bundle},
-    Work{"job", &resolve_text},
+    Work{"job", &resolve_document},
     Work{"dry_run", &dry_run},
     Work{"scenario_plan", &draw_scenario},
     Work{"job_plan", &draw_job},

@@ -43,7 +43,7 @@ bool wants(const JobSpec& job, annotate::GroundTruth kind) {
 sim::RunSpec run_spec(const JobSpec& whole_job, int run, std::vector<Problem>* notes) {
   const JobSpec job = job_of_run(whole_job, run);
   sim::RunSpec spec;
-  spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
+  spec.seed = run_seed(job, run);
   spec.duration_s = job.capture.end_s();
   if (!job.drones.empty()) spec.images_from_s = job.capture.from_s;
   spec.people = job.agents;
@@ -106,7 +106,7 @@ namespace {
 
 // The calibration of every camera.
 void add_cameras(const JobSpec& job, int run, Publication& output) {
-  const std::uint64_t seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
+  const std::uint64_t seed = run_seed(job, run);
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     const std::string& id = job.drones[i].mission.id;
     const auto lens = camera_of_run(job.drones[i].camera, seed, camera_pointer(i)).intrinsics();

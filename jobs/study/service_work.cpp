@@ -71,7 +71,7 @@ void renew_summary(const Study& study, const fs::path& folder) {
 
 json check_request(const json& request) {
   const Study study =
-      read_study(request.at("study").dump(), "", request.at("scenarios").get<std::string>());
+      read_study(request.at("study"), "", request.at("scenarios").get<std::string>());
   json cases = json::array();
   for (const Case& one : study.cases) {
     cases.push_back({{"id", one.id},
@@ -98,7 +98,7 @@ json check_request(const json& request) {
 
 void simulate_in(const fs::path& folder, std::size_t number) {
   const fs::path scenarios = world::scenarios_folder();
-  const std::string text = read_file(folder / kDocumentName);
+  const json document = parse_own_json(read_file(folder / kDocumentName), kDocumentName);
   const json plan = parse_own_json(read_file(folder / kPlanName), kPlanName);
   const StudySize size{plan.at("cases").size(), plan.at("policies").size(), plan.at("runs")};
   if (number >= size.count()) {
@@ -106,7 +106,8 @@ void simulate_in(const fs::path& folder, std::size_t number) {
                              fmt::format("one of {}", size.count())});
   }
   const StudyRun run = size.at(number);
-  const Study study = read_study(text, kDocumentName, scenarios, Cell{run.one_case, run.policy});
+  const Study study =
+      read_study(document, kDocumentName, scenarios, Cell{run.one_case, run.policy});
   do_run(study, folder, run);
   if (is_renewal_due(folder)) renew_summary(study, folder);
 }

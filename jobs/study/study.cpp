@@ -276,7 +276,7 @@ class StudyReader {
         nobody_flies ? jobs::DefaultDrones::none : jobs::DefaultDrones::of_scenario;
     try {
       const jobs::ResolvedJob resolved =
-          jobs::resolve_job(job.dump(), source_, scenarios_, default_drones);
+          jobs::resolve_job(job, source_, scenarios_, default_drones);
       study_.people =
           std::max(study_.people, resolved.spec().agents.value_or(resolved.load().people));
       return resolved.spec();
@@ -319,7 +319,7 @@ Study load_study(const fs::path& file, const fs::path& scenarios) {
   } catch (const EnvironmentError&) {
     throw InputError({source, "", "no readable file", "a study's file"});
   }
-  Study study = read_study(text, source, scenarios);
+  Study study = read_study(parse_json(text, source), source, scenarios);
   for (Case& one : study.cases) {
     for (const Problem& problem : jobs::scenario_findings(one.scenario)) {
       one.findings.push_back(problem.text());
@@ -328,9 +328,8 @@ Study load_study(const fs::path& file, const fs::path& scenarios) {
   return study;
 }
 
-Study read_study(std::string_view text, const std::string& source, const fs::path& scenarios,
+Study read_study(const json& document, const std::string& source, const fs::path& scenarios,
                  const std::optional<Cell>& only) {
-  const json document = parse_json(text, source);
   return StudyReader(document, source, scenarios, only).read();
 }
 

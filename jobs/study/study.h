@@ -61,9 +61,9 @@ struct Cell {
   std::size_t policy = 0;
 };
 
-/// Parses a study from a text; `source` names it in messages. With `only`, jobs and fingerprints of
+/// Reads a study's document; `source` names it in messages. With `only`, jobs and fingerprints of
 /// all other cells stay empty, which takes a fraction of the time.
-Study read_study(std::string_view text, const std::string& source,
+Study read_study(const nlohmann::json& document, const std::string& source,
                  const std::filesystem::path& scenarios, const std::optional<Cell>& only = {});
 
 }  // namespace throng::study

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -160,17 +161,31 @@ void write_library_error(const Request& request, Response& response, const HttpE
   write_problem(response, error);
 }
 
-// Runs a handler; turns what it throws into an answer.
+/// The object of the requests to a route, for messages.
+std::string_view request_subject(std::string_view path) {
+  constexpr std::array kSubjects = {
+      std::pair{"/v1/jobs", "the job"},         std::pair{kCalibrations, "the calibration"},
+      std::pair{kStudies, "the study"},         std::pair{kScenarios, "the scenarios"},
+      std::pair{"/v1/webhooks", "the webhook"}, std::pair{"/v1/keys", "the key"},
+      std::pair{"/v1/live", "the flight"}};
+  for (const auto& [beginning, subject] : kSubjects) {
+    if (path.starts_with(beginning)) return subject;
+  }
+  return "the request";
+}
+
+// Runs the handler of a route; turns what it throws into an answer.
 template <typename Handler>
-void guarded(const ServiceFolders& folders, const Request& request, Response& response,
-             const Handler& handler) {
+void guarded(const Route& route, const ServiceFolders& folders, const Request& request,
+             Response& response, const Handler& handler) {
   try {
     handler();
   } catch (const HttpError& error) {
     write_problem(response, error);
   } catch (const InputError& error) {
-    write_problem(response, {400, "the job cannot be done as it stands",
-                             folders.without_paths(error.problems())});
+    write_problem(response,
+                  {400, fmt::format("{} cannot be done as it stands", request_subject(route.path)),
+                   folders.without_paths(error.problems())});
   } catch (const QuotaError& error) {
     response.set_header("Retry-After", "60");
     write_problem(response, {429, error.what()});
@@ -367,7 +382,7 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
       const SteadyTime begun = steady_now();
       std::string key;
       std::shared_ptr<void> held;
-      guarded(service.folders(), request, response, [&] {
+      guarded(entry, service.folders(), request, response, [&] {
         Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
         if (caller.max_bytes > 0) {  // what its live flights have written is not left to its jobs
           caller.max_bytes = std::max<std::int64_t>(

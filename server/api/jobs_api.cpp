@@ -118,8 +118,7 @@ std::vector<jobs::JobState> requested_states(const Request& request) {
 void submit_job(const RequestContext& context, const Request& request, Response& response) {
   const std::optional<Form> form = requested_form(request);
   if (!form) require_json(request);
-  const std::string& job = form ? form->job : request.body;
-  Submission submission{job};
+  Submission submission{jobs::parse_job_document(form ? form->job : request.body, "")};
   submission.priority =
       static_cast<int>(requested_number(request, "priority", -kMaxPriority, kMaxPriority, 0));
   require_priority(context, submission.priority, "?priority");
@@ -128,8 +127,9 @@ void submit_job(const RequestContext& context, const Request& request, Response&
   if (is_asked(request, "dry_run")) {
     const bool has_bundle = form && form->bundle != nullptr;
     const Viewer viewer = viewer_key(context.caller);
-    json answer = has_bundle ? context.queue.dry_run_with_bundle(job, *form->bundle, viewer)
-                             : context.queue.dry_run(job, viewer);
+    json answer = has_bundle ? context.queue.dry_run_with_bundle(std::move(submission.job),
+                                                                 *form->bundle, viewer)
+                             : context.queue.dry_run(std::move(submission.job), viewer);
     answer["valid"] = true;
     return write_json(response, 200, answer);
   }
@@ -195,12 +195,11 @@ void clone_job(const RequestContext& context, const Request& request, Response& 
     require_json(request);
     job.merge_patch(parse_json_body(request));
   }
-  const std::string text = dump_text(job);
   const int priority = std::min(row.priority, context.caller.max_priority);
   // Sharing is a decision about one job: its copy is seen by its owner until they share it.
   std::vector<std::string> labels = row.labels;
   std::erase(labels, jobs::kSharedLabel);
-  queue(context, {text, priority, std::move(labels), idempotency_key(request)}, response);
+  queue(context, {std::move(job), priority, std::move(labels), idempotency_key(request)}, response);
 }
 
 void remove_job(const RequestContext& context, const Request& request, Response& response) {

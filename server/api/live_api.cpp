@@ -83,7 +83,7 @@ jobs::ResolvedJob job_in(const RequestContext& context, const json& body) {
                       "a job");
   }
   try {
-    jobs::ResolvedJob resolved = context.queue.resolve(dump_text(*job), viewer_key(context.caller));
+    jobs::ResolvedJob resolved = context.queue.resolve(*job, viewer_key(context.caller));
     // A flight takes place in one scenario: that of the job's first run.
     if (!resolved.spec().drones.empty()) {
       return jobs::ResolvedJob(jobs::in_scenario_of_run(resolved.spec(), 0), resolved.load());

@@ -83,20 +83,15 @@ void answer_with(const Request& request, Response& response, const fs::path& fil
 void submit_study(const RequestContext& context, const Request& request, Response& response) {
   require_json(request);
   const json document = parse_json_body(request);
-  try {
-    if (is_asked(request, "dry_run")) {
-      json plan = context.studies.checked(document);
-      plan["valid"] = true;
-      return write_json(response, 200, plan);
-    }
-    const jobs::JobRow row = context.studies.submit(
-        document, {context.caller.key_id, context.caller.max_active, context.caller.max_bytes});
-    response.set_header("Location", "/v1/studies/" + row.id);
-    write_json(response, 201, study_json(row, context.housekeeping.retention()));
-  } catch (const InputError& error) {
-    throw HttpError{400, "the study cannot be done as it stands",
-                    context.folders.without_paths(error.problems())};
+  if (is_asked(request, "dry_run")) {
+    json plan = context.studies.checked(document);
+    plan["valid"] = true;
+    return write_json(response, 200, plan);
   }
+  const jobs::JobRow row = context.studies.submit(
+      document, {context.caller.key_id, context.caller.max_active, context.caller.max_bytes});
+  response.set_header("Location", "/v1/studies/" + row.id);
+  write_json(response, 201, study_json(row, context.housekeeping.retention()));
 }
 
 void list_studies(const RequestContext& context, const Request& request, Response& response) {

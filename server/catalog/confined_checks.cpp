@@ -42,23 +42,22 @@ jobs::CheckedScenarios ConfinedChecks::scenarios(const fs::path& folder) const {
       .get<jobs::CheckedScenarios>();
 }
 
-jobs::ResolvedJob ConfinedChecks::job(std::string_view job_json, const fs::path& scenarios) const {
-  jobs::check_job_schema(job_json, "");
-  const json answer = answer_to({{"task", "job"},
-                                 {"subject", "a job and a scenario"},
-                                 {"job", job_json},
-                                 {"scenarios", scenarios.string()}});
-  const jobs::ResolvedJob resolved(jobs::read_resolved_job(answer.at("job").dump(), "").spec(),
-                                   answer.at("load").get<jobs::SceneLoad>());
+jobs::ResolvedJob ConfinedChecks::job(const json& document, const fs::path& scenarios) const {
+  jobs::check_job_schema(document, "");
+  json answer = answer_to({{"task", "job"},
+                           {"subject", "a job and a scenario"},
+                           {"job", document},
+                           {"scenarios", scenarios.string()}});
+  jobs::ResolvedJob resolved = jobs::resolved_job_from_json(
+      std::move(answer.at("job")), "", answer.at("load").get<jobs::SceneLoad>());
   require_memory(jobs::TaskMemory(resolved.spec(), resolved.load()).max_mib(), "/drones");
   return resolved;
 }
 
-json ConfinedChecks::dry_run(std::string_view job_json, const fs::path& scenarios) const {
-  parse_json(job_json, "");  // a request to a child cannot hold what is no UTF-8
+json ConfinedChecks::dry_run(const json& document, const fs::path& scenarios) const {
   json answer = answer_to({{"task", "dry_run"},
                            {"subject", "a job and a scenario"},
-                           {"job", job_json},
+                           {"job", document},
                            {"scenarios", scenarios.string()}});
   require_memory(answer.at("estimate").at("memory_mib").get<std::int64_t>(), "/drones");
   return answer;

@@ -31,10 +31,12 @@ class ConfinedChecks {
   jobs::CheckedScenarios scenarios(const std::filesystem::path& folder) const;
   /// Resolves a job with the scenarios in a folder. A job that violates the schema is refused
   /// without a child.
-  jobs::ResolvedJob job(std::string_view job_json, const std::filesystem::path& scenarios) const;
+  jobs::ResolvedJob job(const nlohmann::json& document,
+                        const std::filesystem::path& scenarios) const;
   /// Checks and estimates of a job before it runs (jobs/pipeline/checks/job_check.h), as JSON.
   /// Violations of the schema are reported with all other mistakes.
-  nlohmann::json dry_run(std::string_view job_json, const std::filesystem::path& scenarios) const;
+  nlohmann::json dry_run(const nlohmann::json& document,
+                         const std::filesystem::path& scenarios) const;
   /// Floor plans as SVG: of a scenario, and of a resolved job with its drones' paths.
   std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
   std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;

@@ -58,7 +58,8 @@ JobRow Studies::submit(const json& document, const Quota& quota) {
   {
     const auto uploads = uploads_.hold();
     require_scenarios(plan, folders_.scenarios());
-    const std::string sources = uploads_.sources_json(text, jobs::JobKind::study, uploads_before);
+    const std::string sources =
+        uploads_.sources_json(document, jobs::JobKind::study, uploads_before);
     // Under the lock, so that it is not begun before its files are in their place.
     const auto lock = state_.hold();
     const jobs::Added added = store_.add({.name = plan.at("name"),

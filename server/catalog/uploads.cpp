@@ -43,8 +43,7 @@ void add_uploads(const json& spec, std::set<std::string>& uploads) {
 }
 
 /// Uploads that scenarios of a job or study may belong to; none of a calibration's.
-std::set<std::string> job_uploads(const std::string& spec_json, jobs::JobKind kind) {
-  const json spec = parse_json_or_discard(spec_json);
+std::set<std::string> job_uploads(const json& spec, jobs::JobKind kind) {
   std::set<std::string> uploads;
   if (kind != jobs::JobKind::study) {
     add_uploads(spec, uploads);
@@ -57,8 +56,7 @@ std::set<std::string> job_uploads(const std::string& spec_json, jobs::JobKind ki
 
 }  // namespace
 
-std::string naming_bundle(std::string_view bundle, std::string_view job_json) {
-  json job = parse_json(job_json, "", kJobJsonLimits);
+void name_bundle(std::string_view bundle, json& job) {
   if (!job.is_object()) throw InputError(Problem{"", "", "no JSON object", "a job"});
   json scenario = job.value("scenario", json());
   bool uses_bundle = false;
@@ -73,7 +71,6 @@ std::string naming_bundle(std::string_view bundle, std::string_view job_json) {
                              "\"bundle/NAME\", a scenario of the bundle that came with the job"});
   }
   job["scenario"] = std::move(scenario);
-  return dump_text(job);
 }
 
 Uploads::Uploads(const ServiceFolders& folders, jobs::Store& jobs, const ConfinedChecks& confined,
@@ -99,7 +96,8 @@ std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
       std::vector<JobRow> rows = jobs_.list(filter);
       for (const JobRow& row : rows) {
         if (row.spec_json.find(beginning) == std::string::npos) continue;
-        if (job_uploads(row.spec_json, row.kind).contains(upload)) found.push_back(row);
+        if (job_uploads(parse_json_or_discard(row.spec_json), row.kind).contains(upload))
+          found.push_back(row);
       }
       if (rows.empty()) break;
       filter.after = rows.back().id;
@@ -108,10 +106,10 @@ std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
   return found;
 }
 
-std::string Uploads::sources_json(const std::string& spec_json, jobs::JobKind kind,
+std::string Uploads::sources_json(const json& spec, jobs::JobKind kind,
                                   std::uint64_t publications) const {
   json sources = json::object();
-  for (const std::string& name : job_uploads(spec_json, kind)) {
+  for (const std::string& name : job_uploads(spec, kind)) {
     if (scenarios_.is_published_after(name, publications)) {
       throw InputError(
           Problem{"", "/scenario",

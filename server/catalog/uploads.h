@@ -1,6 +1,7 @@
 // Uploaded scenarios and their use by jobs: uploads that jobs need are not removed.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <shared_mutex>
 #include <string>
@@ -41,7 +42,7 @@ class Uploads {
   /// Hashes of the scenarios that a resolved job, or a study's document, names
   /// (JobRow::sources_json). Throws InputError if one of them was uploaded after the given number
   /// of publications: it is not the one that was checked. Call with hold().
-  std::string sources_json(const std::string& spec_json, jobs::JobKind kind,
+  std::string sources_json(const nlohmann::json& spec, jobs::JobKind kind,
                            std::uint64_t publications) const;
   /// Throws InputError if a scenario of the job was removed or has other content than when the job
   /// was resolved: a dataset would have parts of two places.
@@ -81,8 +82,8 @@ class Uploads {
   std::multiset<std::string> pinned_;  ///< bundles of current requests; guarded by mutex_
 };
 
-/// The job with "bundle/" in its scenario replaced by the bundle's name. Throws InputError if its
-/// scenario does not begin with that.
-std::string naming_bundle(std::string_view bundle, std::string_view job_json);
+/// Replaces "bundle/" in the job's scenario by the bundle's name. Throws InputError if its scenario
+/// does not begin with that.
+void name_bundle(std::string_view bundle, nlohmann::json& job);
 
 }  // namespace throng::server

@@ -37,23 +37,25 @@ JobQueue::JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState
       confined_(confined),
       publish_to_(publish_to) {}
 
-std::string JobQueue::with_cameras(std::string_view job_json, const Viewer& viewer) const {
-  return jobs::with_calibrations(
-      job_json, [&](const std::string& id) { return calibrations_.image_camera(id, viewer); });
+void JobQueue::put_cameras(json& job, const Viewer& viewer) const {
+  jobs::put_calibrations(
+      job, [&](const std::string& id) { return calibrations_.image_camera(id, viewer); });
 }
 
-jobs::ResolvedJob JobQueue::resolve(std::string_view job_json, const Viewer& viewer) const {
-  return confined_.job(with_cameras(job_json, viewer), folders_.scenarios());
+jobs::ResolvedJob JobQueue::resolve(json job, const Viewer& viewer) const {
+  put_cameras(job, viewer);
+  return confined_.job(job, folders_.scenarios());
 }
 
-json JobQueue::dry_run(std::string_view job_json, const Viewer& viewer) const {
-  json answer = confined_.dry_run(with_cameras(job_json, viewer), folders_.scenarios());
+json JobQueue::dry_run(json job, const Viewer& viewer) const {
+  put_cameras(job, viewer);
+  json answer = confined_.dry_run(job, folders_.scenarios());
   require_disk(answer.at("estimate").at("disk_bytes").get<std::int64_t>());
   jobs::fit_to_machine(answer, folders_.speed_file());
   jobs::warn_of_full_disk(answer, static_cast<double>(measure_disk(folders_.data()).free_bytes),
                           "the service's disk");
   constexpr const char* kPublish = "/outputs/publish";
-  publish_to_.require(parse_json(job_json, "").value(json::json_pointer(kPublish), ""));
+  publish_to_.require(job.value(json::json_pointer(kPublish), ""));
   return answer;
 }
 
@@ -67,19 +69,18 @@ void JobQueue::require_disk(std::int64_t planned_bytes) const {
 
 jobs::Added JobQueue::submit(const Submission& submission) {
   const std::uint64_t uploads_before = uploads_.scenarios().publications();
-  const jobs::ResolvedJob resolved = resolve(submission.job_json, submission.viewer);
+  const jobs::ResolvedJob resolved = resolve(submission.job, submission.viewer);
   const jobs::JobSpec& job = resolved.spec();
   publish_to_.require(job.outputs.publish);
   const std::int64_t planned_bytes = jobs::estimate_cost(job, resolved.load()).disk_bytes;
   require_disk(planned_bytes);
   const auto lock = uploads_.hold();
   require_scenario(job);
-  const std::string spec_json = dump_text(to_json(job));
-  const std::string sources =
-      uploads_.sources_json(spec_json, jobs::JobKind::dataset, uploads_before);
-  const json sent = {submission.job_json, submission.priority, submission.labels};
+  const json spec = to_json(job);
+  const std::string sources = uploads_.sources_json(spec, jobs::JobKind::dataset, uploads_before);
+  const json sent = {submission.job, submission.priority, submission.labels};
   const jobs::Added added = store_.add({.name = job.name,
-                                        .spec_json = spec_json,
+                                        .spec_json = dump_text(spec),
                                         .priority = submission.priority,
                                         .labels = submission.labels,
                                         .owner = submission.owner,
@@ -98,21 +99,19 @@ jobs::Added JobQueue::submit(const Submission& submission) {
 }
 
 jobs::Added JobQueue::submit_with_bundle(const Submission& submission, std::string_view bundle) {
-  const std::string job = naming_bundle(bundle, submission.job_json);
-  Uploads::Pinned pinned(uploads_, bundle, submission.owner);
   Submission named = submission;
-  named.job_json = job;
+  name_bundle(bundle, named.job);
+  Uploads::Pinned pinned(uploads_, bundle, submission.owner);
   jobs::Added added = submit(named);
   // A repeated submission's job may be another's, or be gone.
   if (added.is_new) pinned.keep();
   return added;
 }
 
-json JobQueue::dry_run_with_bundle(std::string_view job_json, std::string_view bundle,
-                                   const Viewer& viewer) {
-  const std::string job = naming_bundle(bundle, job_json);
+json JobQueue::dry_run_with_bundle(json job, std::string_view bundle, const Viewer& viewer) {
+  name_bundle(bundle, job);
   const Uploads::Pinned pinned(uploads_, bundle, "");
-  return dry_run(job, viewer);
+  return dry_run(std::move(job), viewer);
 }
 
 void JobQueue::require_scenario(const jobs::JobSpec& job) const {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -33,7 +33,7 @@ inline constexpr int kMaxWatchersOfKey = 48;
 
 /// A job to be queued.
 struct Submission {
-  std::string_view job_json;
+  nlohmann::json job;  ///< as it was sent
   int priority = 0;
   std::vector<std::string> labels = {};
   std::string key = {};        ///< idempotency key (jobs::NewJob::key); "" for none
@@ -53,13 +53,13 @@ class JobQueue {
 
   /// Checks and resolves a job without queuing it. It may use the cameras of calibrations that the
   /// viewer sees. Throws InputError.
-  jobs::ResolvedJob resolve(std::string_view job_json, const Viewer& viewer) const;
+  jobs::ResolvedJob resolve(nlohmann::json job, const Viewer& viewer) const;
 
   /// Checks a job and estimates its cost (ConfinedChecks::dry_run()) without queuing it. Throws
   /// InputError.
-  nlohmann::json dry_run(std::string_view job_json, const Viewer& viewer = {}) const;
+  nlohmann::json dry_run(nlohmann::json job, const Viewer& viewer = {}) const;
   /// As dry_run(), with a bundle as in submit_with_bundle().
-  nlohmann::json dry_run_with_bundle(std::string_view job_json, std::string_view bundle,
+  nlohmann::json dry_run_with_bundle(nlohmann::json job, std::string_view bundle,
                                      const Viewer& viewer = {});
 
   /// Checks and queues a job; durable when this returns. Throws InputError and QuotaError.
@@ -117,8 +117,8 @@ class JobQueue {
   int watchers() const { return watchers_.held(); }
 
  private:
-  /// The job with calibrations that it names replaced by their cameras.
-  std::string with_cameras(std::string_view job_json, const Viewer& viewer) const;
+  /// Replaces calibrations that the job names by their cameras.
+  void put_cameras(nlohmann::json& job, const Viewer& viewer) const;
   void require_scenario(const jobs::JobSpec& job) const;
   /// Throws InputError for a job that cannot fit on an empty disk of the data folder.
   void require_disk(std::int64_t planned_bytes) const;

@@ -1,5 +1,7 @@
 #include "sim/people/starting_people.h"
 
+#include <utility>
+
 #include "sim/people/participants.h"
 #include "sim/run.h"
 
@@ -9,9 +11,7 @@ namespace {
 
 // In a recording everybody is a person: the scenario's dangers are agents of its own crowd.
 std::vector<world::AgentRole> roles_at_start(const world::Scenario& scenario, const RunSpec& spec,
-                                             const CrowdSource& crowd,
-                                             std::vector<Problem>& problems) {
-  const std::size_t agents = crowd.positions().size();
+                                             std::size_t agents, std::vector<Problem>& problems) {
   const std::vector<int> none;
   std::vector<world::AgentRole> roles =
       choose_roles(scenario.id, spec.recorded ? none : scenario.disaster_agents, agents,
@@ -27,10 +27,13 @@ std::vector<world::AgentRole> roles_at_start(const world::Scenario& scenario, co
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> StartingPeople::places() const {
+std::vector<Eigen::Vector2d> starting_places(const world::Scenario& scenario, const RunSpec& spec,
+                                             std::span<const Eigen::Vector2f> positions,
+                                             std::span<const std::uint8_t> present) {
+  std::vector<Problem> left_out;
+  const std::vector<world::AgentRole> roles =
+      roles_at_start(scenario, spec, positions.size(), left_out);
   std::vector<Eigen::Vector2d> places;
-  const auto present = crowd->present();
-  const auto positions = crowd->positions();
   for (std::size_t i = 0; i < roles.size(); ++i) {
     if (roles[i] != world::AgentRole::person || present[i] == 0) continue;
     places.push_back(positions[i].cast<double>());
@@ -39,16 +42,21 @@ std::vector<Eigen::Vector2d> StartingPeople::places() const {
 }
 
 StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& spec,
-                               std::vector<Problem>& problems, bool can_step) {
-  StartingPeople people;
-  const auto load = can_step ? &load_crowd : &load_people;
-  people.crowd = spec.recorded ? replayed(spec.recorded, spec.seed)
-                               : simulated(load(scenario, spec.seed, spec.crowd));
-  people.roles = roles_at_start(scenario, spec, *people.crowd, problems);
-  for (std::size_t i = 0; i < people.roles.size(); ++i) {
-    people.crowd->set_present(i, people.roles[i] != world::AgentRole::absent);
+                               std::vector<Problem>& problems,
+                               std::optional<crowd::Simulation> people) {
+  StartingPeople starting;
+  if (spec.recorded) {
+    starting.crowd = replayed(spec.recorded, spec.seed);
+  } else {
+    if (!people) people = load_people(scenario, spec.seed, spec.crowd);
+    people->prepare_to_step();
+    starting.crowd = simulated(*std::move(people));
   }
-  return people;
+  starting.roles = roles_at_start(scenario, spec, starting.crowd->positions().size(), problems);
+  for (std::size_t i = 0; i < starting.roles.size(); ++i) {
+    starting.crowd->set_present(i, starting.roles[i] != world::AgentRole::absent);
+  }
+  return starting;
 }
 
 }  // namespace throng::sim

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "base/error.h"
+#include "crowd/simulation.h"
 #include "sim/people/crowd_source.h"
 #include "spec/sim/run_spec.h"
 #include "world/scenario.h"
@@ -17,15 +21,19 @@ namespace throng::sim {
 struct StartingPeople {
   std::unique_ptr<CrowdSource> crowd;  ///< only participants are present
   std::vector<world::AgentRole> roles;
-
-  /// Positions (m) of the persons who are present.
-  std::vector<Eigen::Vector2d> places() const;
 };
 
-/// Loads the crowd or the recording of a run and chooses its participants. Adds the problems of
-/// choose_roles() to `problems`. Throws InputError if the crowd cannot be loaded. Without
-/// `can_step` it is load_people() whose crowd is loaded.
+/// Chooses the participants of a run from the crowd or the recording. Without `people`, which are
+/// load_people() of this run, the crowd is loaded. Adds the problems of choose_roles() to
+/// `problems`. Throws InputError if the crowd cannot be loaded.
 StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& spec,
-                               std::vector<Problem>& problems, bool can_step = true);
+                               std::vector<Problem>& problems,
+                               std::optional<crowd::Simulation> people = std::nullopt);
+
+/// Positions (m) of the persons who take part in a run and are there at its start, in its crowd or
+/// recording. Leaves out what choose_roles() reports.
+std::vector<Eigen::Vector2d> starting_places(const world::Scenario& scenario, const RunSpec& spec,
+                                             std::span<const Eigen::Vector2f> positions,
+                                             std::span<const std::uint8_t> present);
 
 }  // namespace throng::sim

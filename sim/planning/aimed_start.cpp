@@ -9,8 +9,10 @@
 
 #include "base/compute/random.h"
 #include "base/geometry/angle.h"
+#include "sim/people/crowd_source.h"
 #include "sim/people/starting_people.h"
 #include "sim/planning/clearance.h"
+#include "sim/run.h"
 
 namespace throng::sim {
 
@@ -136,17 +138,22 @@ void aim_drones(const world::Scenario& scenario, const std::vector<Vector2d>& pe
   }
 }
 
-std::vector<Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run) {
-  if (std::none_of(run.drones.begin(), run.drones.end(), has_aim)) return {};
-  std::vector<Problem> of_people;  // the simulation reports them
-  return starting_people(scenario, run, of_people, false).places();
+bool has_aims(const RunSpec& run) {
+  return std::any_of(run.drones.begin(), run.drones.end(), has_aim);
 }
 
-std::vector<DroneMission> aimed_missions(const world::Scenario& scenario, const RunSpec& run,
-                                         std::vector<Problem>& problems) {
-  std::vector<DroneMission> missions = run.drones;
-  aim_drones(scenario, people_to_aim_at(scenario, run), run.seed, missions, problems);
-  return missions;
+std::vector<Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run) {
+  if (!has_aims(run)) return {};
+  if (!run.recorded) {
+    return people_to_aim_at(scenario, run, load_people(scenario, run.seed, run.crowd));
+  }
+  const auto source = replayed(run.recorded, run.seed);
+  return starting_places(scenario, run, source->positions(), source->present());
+}
+
+std::vector<Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run,
+                                       const crowd::Simulation& people) {
+  return starting_places(scenario, run, people.positions(), people.present());
 }
 
 }  // namespace throng::sim

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "crowd/simulation.h"
 #include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 
@@ -21,13 +22,14 @@ void aim_drones(const world::Scenario& scenario, const std::vector<Eigen::Vector
                 std::uint64_t seed, std::vector<DroneMission>& missions,
                 std::vector<Problem>& problems);
 
-/// Positions (m) of a run's people at its start, for aim_drones(). Empty, without loading the
-/// crowd, if no mission has an aim. Throws InputError as simulate().
-std::vector<Eigen::Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run);
+/// Whether any mission of a run has an aim.
+bool has_aims(const RunSpec& run);
 
-/// The missions of a run with the same starts as in its simulation. Adds to `problems` as
-/// aim_drones().
-std::vector<DroneMission> aimed_missions(const world::Scenario& scenario, const RunSpec& run,
-                                         std::vector<Problem>& problems);
+/// Positions (m) of a run's people at its start, for aim_drones(), in its crowd, load_people(). The
+/// first loads that, or the recording, if any mission has an aim; else nobody is there. Throws
+/// InputError as simulate().
+std::vector<Eigen::Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run);
+std::vector<Eigen::Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run,
+                                              const crowd::Simulation& people);
 
 }  // namespace throng::sim

@@ -17,9 +17,8 @@ bool has_own_goal(const DroneMission& mission, const world::Scenario& scenario);
 Problem unknown_goal(std::size_t drone, const world::GoalRef& goal,
                      const world::Scenario& scenario);
 
-/// Adds a problem for each mission whose goal the behavior file does not contain. As a side effect,
-/// moves the existing goals to the origin.
+/// Adds a problem for each mission whose goal the behavior file does not contain.
 void check_moved_goals(const std::vector<DroneMission>& missions, const world::Scenario& scenario,
-                       crowd::Simulation& crowd, std::vector<Problem>& problems);
+                       const crowd::Simulation& crowd, std::vector<Problem>& problems);
 
 }  // namespace throng::sim

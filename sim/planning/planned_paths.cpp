@@ -33,9 +33,11 @@ std::vector<PlannedPose> plan_poses(const PlannedDrone& drone, std::span<const d
   return poses;
 }
 
-std::vector<PlannedDrone> checked_drones(const world::Scenario& scenario, const RunSpec& run) {
+std::vector<PlannedDrone> checked_drones(const world::Scenario& scenario, const RunSpec& run,
+                                         const std::vector<Eigen::Vector2d>& people) {
   std::vector<Problem> problems;
-  const std::vector<DroneMission> missions = aimed_missions(scenario, run, problems);
+  std::vector<DroneMission> missions = run.drones;
+  aim_drones(scenario, people, run.seed, missions, problems);
   std::vector<PlannedDrone> drones = plan_drones(scenario, missions, run.duration_s, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return drones;
@@ -43,8 +45,9 @@ std::vector<PlannedDrone> checked_drones(const world::Scenario& scenario, const 
 
 }  // namespace
 
-std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run) {
-  const std::vector<PlannedDrone> drones = checked_drones(scenario, run);
+std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run,
+                                            const std::vector<Eigen::Vector2d>& people) {
+  const std::vector<PlannedDrone> drones = checked_drones(scenario, run, people);
   std::vector<world::DronePath> paths;
   paths.reserve(drones.size());
   for (const PlannedDrone& drone : drones) paths.push_back(plan_path(drone, run.duration_s));
@@ -53,9 +56,10 @@ std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, con
 
 std::vector<std::vector<PlannedPose>> planned_poses(const world::Scenario& scenario,
                                                     const RunSpec& run,
+                                                    const std::vector<Eigen::Vector2d>& people,
                                                     std::span<const double> times_s) {
   std::vector<std::vector<PlannedPose>> poses;
-  for (const PlannedDrone& drone : checked_drones(scenario, run)) {
+  for (const PlannedDrone& drone : checked_drones(scenario, run, people)) {
     poses.push_back(plan_poses(drone, times_s));
   }
   return poses;

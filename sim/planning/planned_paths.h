@@ -12,8 +12,10 @@ namespace throng::sim {
 
 /// The set-points of each drone's policy over the run's duration, as if the drone followed them
 /// exactly and its battery never ran out. The path of a policy that depends on people consists of
-/// the drone's start only. Throws InputError for missions that cannot be flown.
-std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run);
+/// the drone's start only. Drones aim at `people` (people_to_aim_at()). Throws InputError for
+/// missions that cannot be flown.
+std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run,
+                                            const std::vector<Eigen::Vector2d>& people);
 
 /// The set-point of a drone at a time.
 struct PlannedPose {
@@ -25,6 +27,7 @@ struct PlannedPose {
 /// whose policy depends on people. Throws InputError as planned_paths().
 std::vector<std::vector<PlannedPose>> planned_poses(const world::Scenario& scenario,
                                                     const RunSpec& run,
+                                                    const std::vector<Eigen::Vector2d>& people,
                                                     std::span<const double> times_s);
 
 }  // namespace throng::sim

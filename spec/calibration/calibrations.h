@@ -5,7 +5,6 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
 
 namespace throng::jobs {
 
@@ -13,10 +12,10 @@ namespace throng::jobs {
 /// EnvironmentError if there is none.
 using FindCamera = std::function<nlohmann::json(const std::string& name)>;
 
-/// Returns the job's text with every `drones[].camera.calibration` that is a string replaced by the
-/// camera that `find` returns. Text that is not such a job is returned unchanged; parse_job()
-/// reports its mistakes. Throws InputError with the name's JSON pointer if `find` throws
+/// Replaces every `drones[].camera.calibration` of a job's document that is a string by the camera
+/// that `find` returns. A document that is not such a job stays as it is; the schema reports its
+/// mistakes. Throws InputError with the name's JSON pointer if `find` throws
 /// EnvironmentError; other errors of `find` pass through.
-std::string with_calibrations(std::string_view job_json, const FindCamera& find);
+void put_calibrations(nlohmann::json& job, const FindCamera& find);
 
 }  // namespace throng::jobs

@@ -42,10 +42,12 @@ std::int64_t frames_per_shard(const JobSpec& job, std::int64_t frames) {
 std::vector<RunPlan> plan_runs(const JobSpec& job) {
   std::vector<RunPlan> runs;
   runs.reserve(static_cast<std::size_t>(job.runs));
-  for (int i = 0; i < job.runs; ++i) {
-    runs.push_back({i, derive_seed(job.seed, Stream::run, static_cast<std::uint64_t>(i))});
-  }
+  for (int i = 0; i < job.runs; ++i) runs.push_back({i, run_seed(job, i)});
   return runs;
+}
+
+std::uint64_t run_seed(const JobSpec& job, int run) {
+  return derive_seed(job.seed, Stream::run, static_cast<std::uint64_t>(run));
 }
 
 std::vector<Shard> plan_shards(const JobSpec& job, int run) {

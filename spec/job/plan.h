@@ -28,6 +28,9 @@ struct Shard {
 
 std::vector<RunPlan> plan_runs(const JobSpec& job);
 
+/// Seed of a run, which determines all that is random in it.
+std::uint64_t run_seed(const JobSpec& job, int run);
+
 /// The shards of a run, which cover its frames exactly once, in order. A shard has at most 30
 /// frames, so that a failed worker loses little. A short run has four shards, so that it uses
 /// several cores, or fewer, so that each has an estimated second of work (render_cost.h) for its

@@ -45,5 +45,7 @@ class ResolvedJob {
 /// is relative, or a name for messages. Opens no file. Throws EnvironmentError or InputError if the
 /// text is not the JSON of a resolved job.
 ResolvedJob read_resolved_job(std::string_view json, const std::string& source);
+ResolvedJob resolved_job_from_json(nlohmann::json document, const std::string& source,
+                                   SceneLoad load = {});
 
 }  // namespace throng::jobs

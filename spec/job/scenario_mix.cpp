@@ -146,8 +146,7 @@ JobSpec in_scenario_of_run(const JobSpec& job, int run) {
   if (share.agents) one.agents = share.agents;
   if (share.is_new_each_run) {
     constexpr std::uint64_t kSeeds = 1'000'000'000;  // as GeneratorSpec permits
-    const std::uint64_t run_seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
-    one.generate->seed = derive_seed(run_seed, Stream::place, 0) % kSeeds;
+    one.generate->seed = derive_seed(run_seed(job, run), Stream::place, 0) % kSeeds;
     one.scenario = scenarios::generated_scenario_id(*one.generate);
   }
   return one;

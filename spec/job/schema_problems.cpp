@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
-#include "base/json/json_text.h"
 #include "spec/job/schema.h"
 
 namespace throng::jobs {
@@ -51,8 +51,8 @@ void add_deprecated(const json& value, const json& rules, const std::string& poi
 
 }  // namespace
 
-SchemaProblems::SchemaProblems(std::string_view text, const std::string& source)
-    : job_(parse_json(text, source, kJobJsonLimits)), problems_(schema_problems(job_, source)) {
+SchemaProblems::SchemaProblems(json document, const std::string& source)
+    : job_(std::move(document)), problems_(schema_problems(job_, source)) {
   // The rest may break the schema in turn, where a required value was wrong: then its object
   // goes, too.
   std::vector<Problem> left = problems_;
@@ -71,11 +71,7 @@ SchemaProblems::SchemaProblems(std::string_view text, const std::string& source)
     }
     left = schema_problems(job_, source);
   }
-}
-
-std::optional<std::string> SchemaProblems::text_without() const {
-  if (!job_.is_object() || !schema_problems(job_, "").empty()) return std::nullopt;
-  return job_.dump();
+  is_valid_ = true;
 }
 
 bool SchemaProblems::may_cause(const Problem& problem) const {
@@ -86,9 +82,9 @@ bool SchemaProblems::may_cause(const Problem& problem) const {
   });
 }
 
-std::vector<Problem> deprecated_fields(std::string_view text) {
+std::vector<Problem> deprecated_fields(const json& document) {
   std::vector<Problem> warnings;
-  add_deprecated(parse_json(text, "", kJobJsonLimits), job_schema(), "", warnings);
+  add_deprecated(document, job_schema(), "", warnings);
   return warnings;
 }
 

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kMaxNameLength = 120;  // as in the schema
 
 // Reads a value that the schema allows; absent fields keep the defaults of the structs.
-JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {
+JobSpec read_fields(const json& value, const std::string& source, std::vector<Problem>& problems) {
   JobSpec job;
   job_fields().read(value, job, {"", source, problems});
   if (job.name.empty()) job.name = first_characters(scenario_names(job), kMaxNameLength);
@@ -59,17 +59,9 @@ void check_starts(const JobSpec& job, std::vector<Problem>& problems) {
   }
 }
 
-json parse_with_schema(std::string_view text, const std::string& source) {
-  json value = parse_json(text, source, kJobJsonLimits);
-  std::vector<Problem> problems = schema_problems(value, source);
-  if (!problems.empty()) throw InputError(std::move(problems));
-  resolve_sun_times(value, problems);
-  return value;
-}
-
 JobSpec job_from_json(json value, const std::string& source, std::vector<Problem>& problems) {
   std::vector<RandomField> randomize = take_randomize(value, problems);
-  JobSpec job = read_job(value, source, problems);
+  JobSpec job = read_fields(value, source, problems);
   job.randomize = std::move(randomize);
   return job;
 }
@@ -93,11 +85,20 @@ double JobSpec::frame_time_s(std::int64_t frame) const {
   return capture.from_s + static_cast<double>(frame) / capture.rate_hz;
 }
 
-JobSpec parse_job(std::string_view text, const std::string& source,
-                  std::vector<Problem>& problems) {
-  json value = parse_with_schema(text, source);
+json parse_job_document(std::string_view text, const std::string& source) {
+  return parse_json(text, source, kJobJsonLimits);
+}
+
+void check_job_schema(const json& document, const std::string& source) {
+  std::vector<Problem> problems = schema_problems(document, source);
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+JobSpec read_job(json document, const std::string& source, std::vector<Problem>& problems) {
+  std::vector<Problem> of_schema;  // which resolves the words, too
+  resolve_sun_times(document, of_schema);
   const std::size_t before = problems.size();
-  JobSpec job = job_from_json(std::move(value), source, problems);
+  JobSpec job = job_from_json(std::move(document), source, problems);
   check_times(job.capture, problems);
   check_starts(job, problems);
   for (std::size_t i = before; i < problems.size(); ++i) {
@@ -106,15 +107,23 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   return job;
 }
 
-JobSpec parse_job(std::string_view text, const std::string& source) {
-  std::vector<Problem> problems;
-  JobSpec job = parse_job(text, source, problems);
-  if (!problems.empty()) throw InputError(std::move(problems));
-  return job;
+JobSpec parse_job(std::string_view text, const std::string& source,
+                  std::vector<Problem>& problems) {
+  json document = parse_job_document(text, source);
+  check_job_schema(document, source);
+  return read_job(std::move(document), source, problems);
 }
 
-void check_job_schema(std::string_view text, const std::string& source) {
-  static_cast<void>(parse_with_schema(text, source));
+JobSpec parse_job(std::string_view text, const std::string& source) {
+  return check_and_read_job(parse_job_document(text, source), source);
+}
+
+JobSpec check_and_read_job(json document, const std::string& source) {
+  check_job_schema(document, source);
+  std::vector<Problem> problems;
+  JobSpec job = read_job(std::move(document), source, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return job;
 }
 
 void to_json(json& value, const SceneLoad& load) {
@@ -127,9 +136,13 @@ void from_json(const json& value, SceneLoad& load) {
 }
 
 ResolvedJob read_resolved_job(std::string_view text, const std::string& source) {
+  return resolved_job_from_json(parse_job_document(text, source), source);
+}
+
+ResolvedJob resolved_job_from_json(json document, const std::string& source, SceneLoad load) {
   std::vector<Problem> problems;
   try {
-    ResolvedJob job(job_from_json(parse_json(text, source, kJobJsonLimits), source, problems));
+    ResolvedJob job(job_from_json(std::move(document), source, problems), load);
     if (problems.empty()) return job;
   } catch (const json::exception& error) {
     throw EnvironmentError(fmt::format("{} is damaged: {}", source, error.what()));
@@ -143,7 +156,7 @@ bool differs_between_runs(const JobSpec& job) { return !job.randomize.empty() ||
 
 JobSpec job_of_run(const JobSpec& job, int run) {
   if (!differs_between_runs(job)) return job;
-  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
+  const std::uint64_t seed = run_seed(job, run);
   JobSpec run_job = in_scenario_of_run(job, run);
   run_job.randomize.clear();
   for (const RandomField& field : job.randomize) {
@@ -169,7 +182,7 @@ void add_sampled(const json& asked, const json& had, const std::string& path, js
 }  // namespace
 
 json samples_of_run(const JobSpec& job, int run) {
-  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
+  const std::uint64_t seed = run_seed(job, run);
   json drawn = json::object();
   if (!job.mix.empty()) drawn["scenario"] = in_scenario_of_run(job, run).scenario;
   for (const RandomField& field : job.randomize) drawn[field.path] = field.draw(seed);

@@ -15,16 +15,24 @@
 
 namespace throng::jobs {
 
-/// Throws InputError if the text is not JSON or violates the schema, with a JSON pointer per
-/// problem. `source` names the text in errors ("demo.job.json", or "" for a request body).
-void check_job_schema(std::string_view json, const std::string& source);
+/// Parses the text of a job, the only time that it is parsed, within kJobJsonLimits. Throws
+/// InputError if it is not JSON. `source` names the text in errors here and below
+/// ("demo.job.json", or "" for a request body).
+nlohmann::json parse_job_document(std::string_view text, const std::string& source);
 
-/// Parses a job. Adds mistakes that the schema does not detect to `problems`. Throws as
-/// check_job_schema().
-JobSpec parse_job(std::string_view json, const std::string& source, std::vector<Problem>& problems);
+/// Throws InputError if the document violates the schema, with a JSON pointer per problem.
+void check_job_schema(const nlohmann::json& document, const std::string& source);
 
-/// Parses a job. Throws InputError with all problems.
-JobSpec parse_job(std::string_view json, const std::string& source);
+/// Reads a document that obeys the schema. Adds mistakes that the schema does not detect to
+/// `problems`.
+JobSpec read_job(nlohmann::json document, const std::string& source,
+                 std::vector<Problem>& problems);
+
+/// All of these. The first adds the mistakes that the schema does not detect to `problems`; the
+/// others throw InputError with all problems.
+JobSpec parse_job(std::string_view text, const std::string& source, std::vector<Problem>& problems);
+JobSpec parse_job(std::string_view text, const std::string& source);
+JobSpec check_and_read_job(nlohmann::json document, const std::string& source);
 
 /// The job as JSON, with all defaults that do not depend on the scenario filled in. parse_job()
 /// reads the same job from it.

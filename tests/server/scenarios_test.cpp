@@ -306,7 +306,7 @@ TEST_F(Uploads, AJobGoesOnOnlyWithTheScenariosThatItWasResolvedFrom) {
 
 TEST_F(Uploads, AJobThatRunsIsRefusedOnceItsScenarioHasChanged) {
   ASSERT_EQ(upload(yard_bundle())->status, 201);
-  const jobs::JobRow row = service.queue().submit({kMine}).row;
+  const jobs::JobRow row = service.queue().submit({json::parse(kMine)}).row;
   jobs::JobRow other = row;
   other.sources_json = R"({"mine":"0"})";
   service.uploads().require_same_sources(row);

@@ -21,6 +21,7 @@
 namespace throng::server {
 
 inline constexpr const char* kJob = R"({"scenario": "yard", "capture": {"to_s": 2}})";
+inline nlohmann::json job_document() { return nlohmann::json::parse(kJob); }
 
 class ServiceFixture : public ::testing::Test {
  protected:

@@ -63,9 +63,9 @@ class SeveralJobs : public ServiceFixture {
 
 TEST_F(SeveralJobs, AShortOneEndsWhileALongOneRuns) {
   Service service(with_active(4), executor);
-  const std::string large = service.queue().submit({kJob}).row.id;
+  const std::string large = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(is_at_work(large));
-  const std::string small = service.queue().submit({kJob}).row.id;
+  const std::string small = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(is_at_work(small));
   release(small);
   ASSERT_TRUE(reaches(service, small, JobState::succeeded));
@@ -77,7 +77,9 @@ TEST_F(SeveralJobs, AShortOneEndsWhileALongOneRuns) {
 TEST_F(SeveralJobs, BeyondTheLimitEachOwnerHasOneAndHigherPrioritiesBegin) {
   Service service(with_active(1), executor);
   const auto submit = [&](const std::string& owner, int priority = 0) {
-    return service.queue().submit({.job_json = kJob, .priority = priority, .owner = owner}).row.id;
+    return service.queue()
+        .submit({.job = job_document(), .priority = priority, .owner = owner})
+        .row.id;
   };
   const std::string first = submit("a");
   ASSERT_TRUE(is_at_work(first));
@@ -103,9 +105,9 @@ TEST_F(SeveralJobs, BeyondTheLimitEachOwnerHasOneAndHigherPrioritiesBegin) {
 TEST_F(SeveralJobs, CancellingOneLeavesTheOthers) {
   Service service(with_active(3), executor);
   std::vector<std::string> ids;
-  for (int i = 0; i < 3; ++i) ids.push_back(service.queue().submit({kJob}).row.id);
+  for (int i = 0; i < 3; ++i) ids.push_back(service.queue().submit({job_document()}).row.id);
   for (const std::string& id : ids) ASSERT_TRUE(is_at_work(id));
-  const std::string waiting = service.queue().submit({kJob}).row.id;
+  const std::string waiting = service.queue().submit({job_document()}).row.id;
   std::jthread canceller([&] { service.queue().cancel(ids[1]); });
   ASSERT_TRUE(reaches(service, ids[1], JobState::cancelled));
   release(ids[1]);  // its task ends, and makes room
@@ -125,7 +127,7 @@ TEST_F(SeveralJobs, AllGoOnAfterAFullDiskAndAfterARestart) {
     limited.housekeeping.disk = [&] { return DiskState{free_bytes.load()}; };
     limited.housekeeping.min_free_bytes = 100;
     Service service(limited, executor);
-    for (int i = 0; i < 3; ++i) ids.push_back(service.queue().submit({kJob}).row.id);
+    for (int i = 0; i < 3; ++i) ids.push_back(service.queue().submit({job_document()}).row.id);
     for (const std::string& id : ids) ASSERT_TRUE(is_at_work(id));
     free_bytes = 50;
     ASSERT_TRUE(wait_until([&] { return !service.queue().paused().empty(); }));
@@ -147,7 +149,7 @@ TEST_F(SeveralJobs, AllGoOnAfterAFullDiskAndAfterARestart) {
 
 TEST_F(SeveralJobs, ACancelledJobsFilesCount) {
   Service service(with_active(2), executor);
-  const std::string id = service.queue().submit({.job_json = kJob, .owner = "me"}).row.id;
+  const std::string id = service.queue().submit({.job = job_document(), .owner = "me"}).row.id;
   ASSERT_TRUE(is_at_work(id));
   write_file_atomically(service.folders().job_folder(id) / "work/large", std::string(1 << 20, 'x'));
   std::jthread canceller([&] { service.queue().cancel(id); });
@@ -155,7 +157,7 @@ TEST_F(SeveralJobs, ACancelledJobsFilesCount) {
   release(id);
   canceller.join();
   EXPECT_GE(service.queue().get(id)->bytes, 1 << 20);
-  EXPECT_THROW(service.queue().submit({.job_json = kJob, .owner = "me", .max_bytes = 1 << 20}),
+  EXPECT_THROW(service.queue().submit({.job = job_document(), .owner = "me", .max_bytes = 1 << 20}),
                QuotaError);
 }
 

@@ -47,7 +47,7 @@ inline world::Scenario find_scenario(const std::filesystem::path& folder, const 
 
 /// Resolves a job without its crowd, drones' flights and lenses.
 inline nlohmann::json resolve_lightly(const nlohmann::json& request) {
-  jobs::JobSpec job = jobs::parse_job(request.at("job").get<std::string>(), "");
+  jobs::JobSpec job = jobs::check_and_read_job(request.at("job"), "");
   if (!job.generate) {
     try {
       const world::Scenario scenario = find_scenario(
@@ -70,7 +70,7 @@ inline nlohmann::json resolve_lightly(const nlohmann::json& request) {
 inline nlohmann::json dry_run_lightly(const nlohmann::json& request) {
   const nlohmann::json job = resolve_lightly(request).at("job");
   constexpr int kPeople = 2;
-  const jobs::JobCost cost = jobs::estimate_cost(jobs::parse_job(job.dump(), ""), {kPeople});
+  const jobs::JobCost cost = jobs::estimate_cost(jobs::check_and_read_job(job, ""), {kPeople});
   return {{"job", job},
           {"runs", cost.runs},
           {"shards", cost.shards},

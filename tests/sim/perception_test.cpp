@@ -99,7 +99,9 @@ TEST(TheTruth, HoldsStandingPeopleWithoutCasualties) {
   world::Scenario scenario = testing::yard();
   scenario.scene_file = folder.path() / "scene.xml";
   scenario.behavior_file = folder.path() / "behavior.xml";
-  const auto crowd = simulated(load_crowd(scenario, 1, {}));
+  crowd::Simulation people = load_people(scenario, 1, {});
+  people.prepare_to_step();
+  const auto crowd = simulated(std::move(people));
   const std::vector<world::AgentRole> roles(2, world::AgentRole::person);
   const std::vector<world::GoalRef> moving;
   const std::vector<std::optional<world::GoalRef>> guides;

@@ -477,7 +477,8 @@ TEST(LoadPeople, AreThoseWhoRunAndHaveNoPathsYet) {
   for (const char* id : {"city_square/nearest_exit", "shopping_street/emergency"}) {
     const auto scenario = scenarios::find_scenario(source_folder() / "scenarios", id);
     const crowd::Simulation people = load_people(scenario, 7, {});
-    const crowd::Simulation running = load_crowd(scenario, 7, {});
+    crowd::Simulation running = load_people(scenario, 7, {});
+    running.prepare_to_step();
     EXPECT_THAT(people.positions(), ElementsAreArray(running.positions())) << id;
     EXPECT_THAT(people.present(), ElementsAreArray(running.present())) << id;
     EXPECT_THAT(people.desired_speeds_mps(), ElementsAreArray(running.desired_speeds_mps())) << id;

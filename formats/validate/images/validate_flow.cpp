@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/dataset/mask.h"
+#include "formats/dataset/raster_files.h"
 #include "formats/validate/median.h"
 #include "formats/validate/shares.h"
 #include "formats/validate/shot.h"

@@ -18,8 +18,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kMaxImpactMps = 25;  ///< that drones fall or fly with
-
 /// ISO 2533, and the height that a pressure stands for.
 constexpr double kSeaLevelPa = 101'325;
 constexpr double kLapsePerM = 2.25577e-5;

@@ -326,7 +326,6 @@ void check_sensor_rows(const DatasetInfo& info, const Image& image, const Sensor
     constexpr double kGpsAgeS = 0.45;
     if (what.empty() && noise != info.sensor_noise.end()) {
       SensorSample sample = sample_of_row(rows[i]);
-      constexpr double kMaxImpactMps = 25;
       if (in_contact) sample.max_jump_mps = kMaxImpactMps;
       what = implausible_reading(sample, noise->second, latitude_deg, 0, kGpsAgeS);
     }

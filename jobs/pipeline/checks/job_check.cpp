@@ -99,7 +99,10 @@ ExpectedArrivals expected_arrivals(const crowd::Simulation& simulation, double d
   return expected;
 }
 
-ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario, int run) {
+ScenarioCheck check_scenario(CheckedScenario& place) {
+  const JobSpec& job = place.job();
+  const world::Scenario& scenario = place.scenario();
+  const int run = place.runs().front();
   ScenarioCheck checked;
   StartingCrowd crowd;
   double shown_people = 0;  // of a recording
@@ -114,12 +117,12 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
     checked.warnings = recording_warnings(std::move(notes), recording, scenario);
   } else {
     const std::set<int> hazards(scenario.disaster_agents.begin(), scenario.disaster_agents.end());
-    const crowd::Simulation simulation = sim::load_people(
-        scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
+    const crowd::Simulation& simulation = place.people();
     checked.expected.people = static_cast<std::int64_t>(simulation.agent_count() - hazards.size());
     crowd = starting_crowd(job, simulation, hazards);
     arrivals = expected_arrivals(simulation, job.capture.end_s());
   }
+  crowd.aimed_at = place.people_to_aim_at();
   const world::Rectangle& ground = scenario.ground;
   checked.expected.ground_m2 = (ground.max - ground.min).prod();
   checked.expected.is_fled = !scenario.disasters.empty();
@@ -146,7 +149,7 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
   }
   for (Problem& warning : scenario_findings(scenario))
     checked.warnings.push_back(std::move(warning));
-  for (Problem& warning : rehearse(job, scenario, run, checked.expected.people)) {
+  for (Problem& warning : rehearse(place, checked.expected.people)) {
     checked.warnings.push_back(std::move(warning));
   }
   return checked;
@@ -154,25 +157,26 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
 
 }  // namespace
 
-CheckedJob check_job(std::string_view text, const std::string& source,
+CheckedJob check_job(const nlohmann::json& document, const std::string& source,
                      const std::filesystem::path& scenarios) {
-  CheckedJob checked{resolve_job(text, source, scenarios)};
+  Resolution resolution = resolve_in_scenarios(document, source, scenarios);
+  CheckedJob checked{std::move(resolution.job)};
   const JobSpec& job = checked.job.spec();
-  checked.warnings = deprecated_fields(text);
+  checked.warnings = deprecated_fields(document);
   const std::vector<Problem> settings = warnings_of_settings(job);
   checked.warnings.insert(checked.warnings.end(), settings.begin(), settings.end());
   const std::vector<std::size_t> shares = shares_of_runs(job);
   double people_of_runs = 0;
   std::vector<ExpectedRun> of_shares(job.mix.empty() ? 1 : job.mix.size());
-  for (const int run : first_runs(job)) {
-    const JobSpec one = in_scenario_of_run(job, run);
-    ScenarioCheck place = check_scenario(one, load_job_scenario(one, scenarios, source), run);
+  for (CheckedScenario& checked_scenario : resolution.scenarios) {
+    const int run = checked_scenario.runs().front();
+    ScenarioCheck place = check_scenario(checked_scenario);
     const auto runs =
         std::count(shares.begin(), shares.end(), shares[static_cast<std::size_t>(run)]);
     people_of_runs += static_cast<double>(runs) * place.expected.taking_part;
     of_shares[shares[static_cast<std::size_t>(run)]] = place.expected;
     for (Problem& warning : place.warnings) {
-      if (!job.mix.empty()) warning.found += " in " + one.scenario;
+      if (!job.mix.empty()) warning.found += " in " + checked_scenario.job().scenario;
       checked.warnings.push_back(std::move(warning));
     }
     if (run == 0) checked.views = std::move(place.views);

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -26,10 +25,10 @@ struct CheckedJob {
   std::vector<Problem> warnings = {};  ///< JSON pointers into the job
 };
 
-/// Resolves a job's text as resolve_job() does, loads its crowd and evaluates its drones' planned
-/// paths; renders nothing. `source` names the text in messages, `scenarios` is the folder of
+/// Resolves a job as resolve_job() does, looks at its crowd and evaluates its drones' planned
+/// paths; renders nothing. `source` names the document in messages, `scenarios` is the folder of
 /// scenarios. Throws InputError with all mistakes, and EnvironmentError.
-CheckedJob check_job(std::string_view json, const std::string& source,
+CheckedJob check_job(const nlohmann::json& document, const std::string& source,
                      const std::filesystem::path& scenarios);
 
 /// The answer to a dry run: {"runs", "shards", "frames", "people", "estimate", "views", "warnings",

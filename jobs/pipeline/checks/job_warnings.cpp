@@ -122,11 +122,11 @@ double ground_distance_m(const world::Rectangle& area, const Eigen::Vector3d& po
   return (on_ground - area.nearest_point(on_ground, 0)).norm();
 }
 
-void check_distances(const JobSpec& job, const world::Scenario& scenario, int run,
-                     std::vector<Problem>& warnings) {
+void check_distances(const JobSpec& job, const world::Scenario& scenario,
+                     const StartingCrowd& crowd, int run, std::vector<Problem>& warnings) {
   world::Rectangle area = scenario.ground;
   area.extend(scenario.inside.bounds);
-  const auto paths = sim::planned_paths(scenario, run_spec(job, run));
+  const auto paths = sim::planned_paths(scenario, run_spec(job, run), crowd.aimed_at);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     double max_distance_m = 0;
     for (const Eigen::Vector3d& point : paths[i].points) {
@@ -169,7 +169,7 @@ std::vector<Problem> scenario_warnings(const JobSpec& job, const world::Scenario
                                        const StartingCrowd& crowd, int first_run) {
   std::vector<Problem> warnings;
   check_smoke(job, scenario, warnings);
-  check_distances(job, scenario, first_run, warnings);
+  check_distances(job, scenario, crowd, first_run, warnings);
   std::vector<CameraView> best(job.drones.size());
   std::vector<bool> is_known(job.drones.size(), true);
   for (int run = first_run; run < std::min(job.runs, first_run + kMaxRuns); ++run) {

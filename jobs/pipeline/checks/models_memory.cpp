@@ -77,10 +77,8 @@ double library_bytes() {
 
 }  // namespace
 
-std::int64_t models_memory_mib(const std::vector<world::Scenario>& scenarios) {
-  double most = 0;
-  for (const world::Scenario& scenario : scenarios) most = std::max(most, scenario_bytes(scenario));
-  return std::llround((library_bytes() + most) / kMib);
+std::int64_t models_memory_mib(const world::Scenario& scenario) {
+  return std::llround((library_bytes() + scenario_bytes(scenario)) / kMib);
 }
 
 }  // namespace throng::jobs

@@ -69,11 +69,12 @@ std::vector<Problem> with_scenario_findings(std::vector<Problem> warnings,
   return warnings;
 }
 
-std::vector<Problem> rehearse(const JobSpec& job, const world::Scenario& scenario, int run,
-                              std::int64_t people) {
+std::vector<Problem> rehearse(CheckedScenario& checked, std::int64_t people) {
+  const JobSpec& job = checked.job();
+  const world::Scenario& scenario = checked.scenario();
   const std::optional<double> alarm_s = world::find_alarm(scenario).at_s;
   if (!alarm_s || job.recorded || job.agents == 0) return {};
-  sim::RunSpec spec = run_spec(job, run);
+  sim::RunSpec spec = run_spec(job, checked.runs().front());
   if (*alarm_s > spec.duration_s) {
     if (!job.drones.empty()) return {};
     return {sim::late_alarm(*alarm_s, spec.duration_s)};
@@ -82,7 +83,7 @@ std::vector<Problem> rehearse(const JobSpec& job, const world::Scenario& scenari
   constexpr double kPatienceS = 10;  // after the alarm; a run is not said to be idle before
   if (static_cast<double>(people) * (*alarm_s + kPatienceS) > kMaxMoves * kUsualStepS) return {};
   Rehearsal rehearsal(scenario);
-  sim::simulate(scenario, spec, rehearsal);
+  sim::simulate(scenario, spec, rehearsal, {}, {}, checked.take_people());
   return rehearsal.watch().idleness();
 }
 

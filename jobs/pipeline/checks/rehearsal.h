@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "spec/job/spec.h"
+#include "jobs/pipeline/checks/checked_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::jobs {
@@ -19,10 +19,9 @@ std::vector<Problem> scenario_findings(const world::Scenario& scenario);
 std::vector<Problem> with_scenario_findings(std::vector<Problem> warnings,
                                             const world::Scenario& scenario);
 
-/// Simulates a run of a job in its scenario until a person notices the alarm. If nobody does,
-/// returns the warnings of such a run (sim/people/people_watch.h). The effort is limited to about a
-/// second; larger crowds and later reactions give no warning.
-std::vector<Problem> rehearse(const JobSpec& job, const world::Scenario& scenario, int run,
-                              std::int64_t people);
+/// Simulates the first run in a scenario until a person notices the alarm. If nobody does, returns
+/// the warnings of such a run (sim/people/people_watch.h). The effort is limited to about a second;
+/// crowds of more `people` and later reactions give no warning. Takes the scenario's people.
+std::vector<Problem> rehearse(CheckedScenario& checked, std::int64_t people);
 
 }  // namespace throng::jobs

@@ -3,7 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <vector>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "annotate/people/coco.h"
 #include "base/error.h"
@@ -176,48 +177,19 @@ void make_job_for_figures(JobSpec& job, std::vector<Problem>& problems) {
   outputs.previews = 0;
 }
 
-// Whether it comes from the trace of a run, which was simulated and has no need of its crowd.
-bool is_of_trace(const world::Scenario& scenario) {
-  return !scenario.has_crowd() && scenario.alarm.has_value();
-}
-
-/// A scenario of the job: where its runs are checked.
-struct ScenarioRuns {
-  JobSpec job;  ///< of this scenario only
-  const world::Scenario& scenario;
-  std::vector<int> runs;
-  std::vector<Eigen::Vector2d> people;  ///< at whom drones aim, in one of the runs
-};
-
-/// Nobody where the crowd cannot be loaded, which the simulation will explain.
-std::vector<Eigen::Vector2d> people_in(const ScenarioRuns& place) {
-  const JobSpec job = job_of_run(place.job, place.runs.front());
-  const bool aims = std::any_of(job.drones.begin(), job.drones.end(), [](const DroneSpec& drone) {
-    return drone.mission.aim.has_value();
-  });
-  if (!aims || is_of_trace(place.scenario)) return {};
-  try {
-    return sim::people_to_aim_at(place.scenario, run_spec(place.job, place.runs.front()));
-  } catch (const InputError&) {
-    return {};
-  } catch (const EnvironmentError&) {
-    return {};
-  }
-}
-
-void check_flight(const ScenarioRuns& place, const JobSpec& run_job, int run,
+void check_flight(CheckedScenario& place, const JobSpec& run_job, int run,
                   std::vector<Problem>& problems) {
-  const std::uint64_t seed = plan_runs(run_job).at(static_cast<std::size_t>(run)).seed;
+  const std::uint64_t seed = run_seed(run_job, run);
   std::vector<sim::DroneMission> missions = make_missions(run_job, seed);
-  sim::aim_drones(place.scenario, place.people, seed, missions, problems);
-  sim::plan_drones(place.scenario, missions, run_job.capture.end_s(), problems);
+  sim::aim_drones(place.scenario(), place.people_to_aim_at(), seed, missions, problems);
+  sim::plan_drones(place.scenario(), missions, run_job.capture.end_s(), problems);
 }
 
 // Checks that need the simulation: whether the drones can fly and whether there are people enough.
-void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
+void check_with_simulation(CheckedScenario& place, const JobSpec& job,
                            std::vector<Problem>& problems) {
-  const world::Scenario& scenario = place.scenario;
-  check_flight(place, job, place.runs.front(), problems);
+  const world::Scenario& scenario = place.scenario();
+  check_flight(place, job, place.runs().front(), problems);
   const char* field = "/crowd/model";
   try {
     const crowd::ModelEntry& model = crowd::find_model(sim::model_for(scenario, job.crowd));
@@ -229,13 +201,13 @@ void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
     return;
   }
   if (job.recorded) return check_recording(job, problems);
-  if (is_of_trace(scenario)) return;
+  if (place.is_of_trace()) return;
   const std::vector<sim::DroneMission> missions = make_missions(job, job.seed);
   const bool moves_goals = std::any_of(
       missions.begin(), missions.end(),
       [&](const sim::DroneMission& mission) { return sim::has_own_goal(mission, scenario); });
   if (!job.agents && !moves_goals) return;
-  crowd::Simulation crowd = sim::load_people(scenario, job.seed, job.crowd);
+  const crowd::Simulation& crowd = place.people();
   if (moves_goals) sim::check_moved_goals(missions, scenario, crowd, problems);
   if (!job.agents) return;
   sim::choose_roles(scenario.id, scenario.disaster_agents, crowd.agent_count(), job.agents,
@@ -244,10 +216,10 @@ void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
 
 /// That the scenario has if the job does not say how many; 0 where they cannot be counted, which
 /// the simulation will explain.
-int count_people(const JobSpec& job, const world::Scenario& scenario) {
-  if (job.agents || job.recorded || is_of_trace(scenario)) return 0;
+int count_people(CheckedScenario& place) {
+  if (place.job().agents || place.job().recorded || place.is_of_trace()) return 0;
   try {
-    return static_cast<int>(sim::load_people(scenario, job.seed, job.crowd).agent_count());
+    return static_cast<int>(place.people().agent_count());
   } catch (const InputError&) {
     return 0;
   }
@@ -261,18 +233,18 @@ bool has_own_airframe(const JobSpec& job) {
 
 // Checks the fields that may differ between runs in each of them, and the largest of their crowds.
 // Problems are reported at the distributions.
-void check_runs(const ScenarioRuns& place, std::vector<Problem>& problems) {
-  JobSpec largest = place.job;
+void check_runs(CheckedScenario& place, std::vector<Problem>& problems) {
+  JobSpec largest = place.job();
   const std::size_t before = problems.size();
-  for (const int run : place.runs) {
-    const JobSpec run_job = job_of_run(place.job, run);
+  for (const int run : place.runs()) {
+    const JobSpec run_job = job_of_run(place.job(), run);
     if (run_job.agents.value_or(0) > largest.agents.value_or(0)) largest.agents = run_job.agents;
     check_flight(place, run_job, run, problems);
     if (problems.size() > before) break;
   }
   if (problems.size() == before) check_with_simulation(place, largest, problems);
   for (std::size_t i = before; i < problems.size(); ++i) {
-    for (const RandomField& field : place.job.randomize) {
+    for (const RandomField& field : place.job().randomize) {
       if (field.pointer.starts_with(problems[i].where)) {
         problems[i].where = "/randomize/" + field.path;
       }
@@ -281,28 +253,36 @@ void check_runs(const ScenarioRuns& place, std::vector<Problem>& problems) {
 }
 
 /// `is_sound`: nothing else is wrong with the job.
-std::vector<Problem> problems_in(const ScenarioRuns& place, bool is_sound) {
+std::vector<Problem> problems_in(CheckedScenario& place, bool is_sound) {
   std::vector<Problem> problems;
-  if (is_sound && !place.job.randomize.empty()) {
+  if (is_sound && !place.job().randomize.empty()) {
     check_runs(place, problems);
-  } else if (is_sound || !has_own_airframe(place.job)) {
-    check_with_simulation(place, place.job, problems);
+  } else if (is_sound || !has_own_airframe(place.job())) {
+    check_with_simulation(place, place.job(), problems);
   }
   return problems;
 }
 
-// Checks the job in its scenarios, in the order of first_runs(). Of several, each problem says in
-// which.
-void check_places(const JobSpec& job, const std::vector<world::Scenario>& scenarios,
-                  std::vector<Problem>& problems) {
+/// The job's scenarios, in the order of first_runs().
+std::vector<CheckedScenario> split_by_scenario(const JobSpec& job,
+                                               std::vector<world::Scenario> scenarios) {
   const std::vector<int> first = first_runs(job);
-  const bool is_sound = problems.empty();
+  std::vector<CheckedScenario> places;
+  places.reserve(first.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
-    ScenarioRuns place{
-        in_scenario_of_run(job, first[i]), scenarios[i], runs_alike(job, first[i]), {}};
-    place.people = people_in(place);
+    places.emplace_back(in_scenario_of_run(job, first[i]), std::move(scenarios[i]),
+                        runs_alike(job, first[i]));
+  }
+  return places;
+}
+
+// Checks the job in its scenarios. Of several, each problem says in which.
+void check_places(const JobSpec& job, std::vector<CheckedScenario>& places,
+                  std::vector<Problem>& problems) {
+  const bool is_sound = problems.empty();
+  for (CheckedScenario& place : places) {
     for (Problem& problem : problems_in(place, is_sound)) {
-      if (!job.mix.empty()) problem.found += fmt::format(" in {}", place.scenario.id);
+      if (!job.mix.empty()) problem.found += fmt::format(" in {}", place.scenario().id);
       problems.push_back(std::move(problem));
     }
   }
@@ -334,9 +314,8 @@ void check_filters(const JobSpec& job, std::vector<Problem>& problems) {
                       "the annotation difficulty, too, which measures contrast"});
 }
 
-ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
-                     const std::string& source, std::vector<Problem> problems,
-                     DefaultDrones default_drones) {
+Resolution resolved(JobSpec job, std::vector<world::Scenario> scenarios, const std::string& source,
+                    std::vector<Problem> problems, DefaultDrones default_drones) {
   read_files(job, problems);
   if (job.mix.empty()) take_from_scenario(job, scenarios.front(), default_drones);
   if (job.drones.empty() && default_drones == DefaultDrones::of_scenario) {
@@ -348,13 +327,13 @@ ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
   check_filters(job, problems);
   check_ground_outputs(job.outputs, scenarios, problems);
   if (problems.empty()) check_cameras(job, problems);
-  check_places(job, scenarios, problems);
+  std::vector<CheckedScenario> places = split_by_scenario(job, std::move(scenarios));
+  check_places(job, places, problems);
   int people = 0;
   if (problems.empty()) {
-    const std::vector<int> first = first_runs(job);
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      const int here = count_people(in_scenario_of_run(job, first[i]), scenarios[i]);
-      check_ids(job, scenarios[i], std::max(here, job.agents.value_or(0)), problems);
+    for (CheckedScenario& place : places) {
+      const int here = count_people(place);
+      check_ids(job, place.scenario(), std::max(here, job.agents.value_or(0)), problems);
       people = std::max(people, here);
     }
   }
@@ -362,21 +341,21 @@ ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
     if (problem.source.empty()) problem.source = source;
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  return ResolvedJob(std::move(job), SceneLoad{people});
+  return {ResolvedJob(std::move(job), SceneLoad{people}), std::move(places)};
 }
 
 }  // namespace
 
 ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source) {
-  return resolved(std::move(job), {scenario}, source, {}, DefaultDrones::of_scenario);
+  return resolved(std::move(job), {scenario}, source, {}, DefaultDrones::of_scenario).job;
 }
 
 namespace {
 
-ResolvedJob resolve_sound(std::string_view text, const std::string& source,
-                          const std::filesystem::path& scenarios, DefaultDrones default_drones) {
+Resolution resolve_valid(const nlohmann::json& document, const std::string& source,
+                         const std::filesystem::path& scenarios, DefaultDrones default_drones) {
   std::vector<Problem> problems;
-  JobSpec job = parse_job(text, source, problems);
+  JobSpec job = read_job(document, source, problems);
   std::vector<world::Scenario> places;
   std::vector<Problem> of_places;
   bool is_named = true;
@@ -399,22 +378,29 @@ ResolvedJob resolve_sound(std::string_view text, const std::string& source,
     problems.insert(problems.end(), of_places.begin(), of_places.end());
     throw InputError(std::move(problems));
   }
-  const ResolvedJob job_without_models =
-      resolved(std::move(job), places, source, std::move(problems), default_drones);
-  return ResolvedJob(job_without_models.spec(),
-                     {job_without_models.load().people, models_memory_mib(places)});
+  Resolution resolution =
+      resolved(std::move(job), std::move(places), source, std::move(problems), default_drones);
+  SceneLoad load{resolution.job.load().people, 0};
+  for (const CheckedScenario& place : resolution.scenarios) {
+    load.models_mib = std::max(load.models_mib, models_memory_mib(place.scenario()));
+  }
+  resolution.job = ResolvedJob(resolution.job.spec(), load);
+  return resolution;
 }
 
 }  // namespace
 
-ResolvedJob resolve_job(std::string_view text, const std::string& source,
-                        const std::filesystem::path& scenarios, DefaultDrones default_drones) {
-  const SchemaProblems of_schema(text, source);
-  if (of_schema.problems().empty()) return resolve_sound(text, source, scenarios, default_drones);
+Resolution resolve_in_scenarios(const nlohmann::json& document, const std::string& source,
+                                const std::filesystem::path& scenarios,
+                                DefaultDrones default_drones) {
+  const SchemaProblems of_schema(document, source);
+  if (of_schema.problems().empty()) {
+    return resolve_valid(document, source, scenarios, default_drones);
+  }
   std::vector<Problem> problems = of_schema.problems();
-  if (const auto rest = of_schema.text_without()) {
+  if (const nlohmann::json* rest = of_schema.valid_part()) {
     try {
-      static_cast<void>(resolve_sound(*rest, source, scenarios, default_drones));
+      static_cast<void>(resolve_valid(*rest, source, scenarios, default_drones));
     } catch (const InputError& error) {
       for (const Problem& problem : error.problems()) {
         if (!of_schema.may_cause(problem)) problems.push_back(problem);
@@ -422,6 +408,16 @@ ResolvedJob resolve_job(std::string_view text, const std::string& source,
     }
   }
   throw InputError(std::move(problems));
+}
+
+ResolvedJob resolve_job(const nlohmann::json& document, const std::string& source,
+                        const std::filesystem::path& scenarios, DefaultDrones default_drones) {
+  return resolve_in_scenarios(document, source, scenarios, default_drones).job;
+}
+
+ResolvedJob resolve_valid_job(const nlohmann::json& document, const std::string& source,
+                              const std::filesystem::path& scenarios) {
+  return resolve_valid(document, source, scenarios, DefaultDrones::of_scenario).job;
 }
 
 }  // namespace throng::jobs

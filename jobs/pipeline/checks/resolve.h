@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
+#include <vector>
 
+#include "jobs/pipeline/checks/checked_scenario.h"
 #include "spec/job/resolved_job.h"
 #include "world/scenario.h"
 
@@ -22,11 +24,23 @@ enum class DefaultDrones {
   none          ///< no drones: the job renders nothing
 };
 
-/// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. Throws
-/// InputError with all problems together: parts of the text that obey the schema are checked even
-/// if others break it.
-ResolvedJob resolve_job(std::string_view json, const std::string& source,
+/// A resolved job and its scenarios, in the order of first_runs().
+struct Resolution {
+  ResolvedJob job;
+  std::vector<CheckedScenario> scenarios;
+};
+
+/// Reads a job's document, loads its scenarios from the folder `scenarios` and resolves it. Throws
+/// InputError with all problems together: parts of the document that obey the schema are checked
+/// even if others break it.
+Resolution resolve_in_scenarios(const nlohmann::json& document, const std::string& source,
+                                const std::filesystem::path& scenarios,
+                                DefaultDrones default_drones = DefaultDrones::of_scenario);
+ResolvedJob resolve_job(const nlohmann::json& document, const std::string& source,
                         const std::filesystem::path& scenarios,
                         DefaultDrones default_drones = DefaultDrones::of_scenario);
+/// The same for a document that obeys the schema, which is not checked again.
+ResolvedJob resolve_valid_job(const nlohmann::json& document, const std::string& source,
+                              const std::filesystem::path& scenarios);
 
 }  // namespace throng::jobs

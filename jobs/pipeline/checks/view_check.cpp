@@ -104,7 +104,7 @@ std::vector<std::optional<CameraView>> views_of_run(const JobSpec& whole_job,
   const JobSpec job = job_of_run(whole_job, run);
   const std::vector<double> times = sample_times(job);
   const sim::RunSpec spec = run_spec(whole_job, run);
-  const auto poses = sim::planned_poses(scenario, spec, times);
+  const auto poses = sim::planned_poses(scenario, spec, crowd.aimed_at, times);
   const std::vector<Cell> cells = occupied_cells(scenario, crowd);
   std::vector<std::optional<CameraView>> views;
   for (std::size_t i = 0; i < poses.size(); ++i) {

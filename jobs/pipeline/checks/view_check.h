@@ -15,10 +15,11 @@ namespace throng::jobs {
 
 /// People at the start of a run.
 struct StartingCrowd {
-  std::vector<Eigen::Vector2d> places = {};  ///< positions, m
-  std::size_t times = 1;                     ///< number of times at which these were taken
-  double max_speed_mps = 0;                  ///< greatest preferred speed
-  bool has_arrivals = false;                 ///< people arrive later, at unknown positions
+  std::vector<Eigen::Vector2d> places = {};    ///< positions, m
+  std::size_t times = 1;                       ///< number of times at which these were taken
+  double max_speed_mps = 0;                    ///< greatest preferred speed
+  bool has_arrivals = false;                   ///< people arrive later, at unknown positions
+  std::vector<Eigen::Vector2d> aimed_at = {};  ///< positions of those at whom drones aim, m
 };
 
 /// Predicted content of a camera's images over the capture.

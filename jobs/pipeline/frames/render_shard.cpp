@@ -180,7 +180,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
                   const std::filesystem::path& scenarios, const Shard& shard,
                   const OnTaskProgress& on_progress, const std::stop_token& stop) {
   JobSpec job = job_of_run(whole_job, shard.run);
-  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
+  const std::uint64_t seed = run_seed(job, shard.run);
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, shard.run}));
   world::Scenario scenario = scenario_of_run(job, scenarios, trace.header);
   world::thin_out(scenario, job.props_density, seed);

@@ -91,7 +91,7 @@ void write_counts_table(RunOutput& output) {
 
 void write_actions_table(RunOutput& output) {
   const JobSpec job = job_of_run(output.job, output.run);
-  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(output.run)).seed;
+  const std::uint64_t seed = run_seed(job, output.run);
   const RunEnvironment environment = environment_of_run(job.environment, seed);
   const skinning::Styling styling = styling_in(job, environment.light.weather);
   const skinning::Population population = skinning::load_population(skinning::population_folder());
@@ -126,7 +126,7 @@ void write_events(RunOutput& output) {
 }
 
 void write_sensors(RunOutput& output) {
-  const std::uint64_t seed = plan_runs(output.job)[static_cast<std::size_t>(output.run)].seed;
+  const std::uint64_t seed = run_seed(output.job, output.run);
   for (std::size_t i = 0; i < output.job.drones.size(); ++i) {
     const std::string& id = output.job.drones[i].mission.id;
     const auto& ids = output.trace.header.drone_ids;

@@ -30,7 +30,7 @@ json small_job() {
 /// The hash of the trace that `throng simulate` writes for a job.
 std::string simulated(const std::string& text, const std::filesystem::path& file) {
   const auto scenarios = world::scenarios_folder();
-  const jobs::JobSpec job = jobs::resolve_job(text, "job", scenarios).spec();
+  const jobs::JobSpec job = jobs::resolve_job(nlohmann::json::parse(text), "job", scenarios).spec();
   const world::Scenario scenario = jobs::load_job_scenario(job, scenarios);
   sim::simulate(scenario, jobs::run_spec(job, 0), file);
   return sha256_hex_of_file(file);

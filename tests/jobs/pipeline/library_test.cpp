@@ -27,7 +27,9 @@ std::set<std::string> scenarios_of_jobs(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (!entry.path().filename().string().ends_with(".job.json")) continue;
     const JobSpec job =
-        resolve_job(read_file(entry.path()), entry.path().string(), kLibrary).spec();
+        resolve_job(parse_job_document(read_file(entry.path()), entry.path().string()),
+                    entry.path().string(), kLibrary)
+            .spec();
     EXPECT_FALSE(job.drones.empty()) << entry.path();
     EXPECT_NO_THROW(scenarios::find_scenario(kLibrary, job.scenario)) << entry.path();
     scenarios.insert(fs::path(job.scenario).filename().string());

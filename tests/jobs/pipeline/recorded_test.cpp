@@ -55,7 +55,7 @@ class RecordedJob : public testing::Test {
   }
 
   ResolvedJob resolve(const json& value) const {
-    return resolve_job(value.dump(), (folder.path() / "job.json").string(), folder.path());
+    return resolve_job(value, (folder.path() / "job.json").string(), folder.path());
   }
 
   /// The figures of the job's run.
@@ -128,14 +128,12 @@ TEST_F(RecordedJob, TakesAsManyOfThemAsItAsksFor) {
 }
 
 TEST_F(RecordedJob, ItsCheckCountsPeopleAndNotTheirPositions) {
-  const CheckedJob checked =
-      check_job(job().dump(), (folder.path() / "job.json").string(), folder.path());
+  const CheckedJob checked = check_job(job(), (folder.path() / "job.json").string(), folder.path());
   EXPECT_EQ(checked.people, 12);
   // By 2 s four of them have come, one each 10 frames.
   json shorter = job();
   shorter["capture"]["to_s"] = 2;
-  const CheckedJob early =
-      check_job(shorter.dump(), (folder.path() / "job.json").string(), folder.path());
+  const CheckedJob early = check_job(shorter, (folder.path() / "job.json").string(), folder.path());
   EXPECT_EQ(early.people, 4);
   EXPECT_LT(early.cost.disk_bytes, checked.cost.disk_bytes);
 }
@@ -156,7 +154,7 @@ TEST_F(RecordedJob, PeopleInBuildingsAndInhumanSpeedsAreInItsCheckItsRunAndItsMe
   };
   std::vector<std::string> of_check;
   for (const Problem& warning :
-       check_job(job().dump(), (folder.path() / "job.json").string(), folder.path()).warnings) {
+       check_job(job(), (folder.path() / "job.json").string(), folder.path()).warnings) {
     of_check.push_back(warning.text());
   }
   const json figures = measured();
@@ -176,7 +174,8 @@ TEST_F(RecordedJob, FindingsAboutItsScenarioAreInItsCheckAndInItsMetrics) {
     });
   };
   std::vector<std::string> texts;
-  for (const Problem& warning : check_job(R"({"scenario": "yard"})", "", folder.path()).warnings) {
+  for (const Problem& warning :
+       check_job(json::parse(R"({"scenario": "yard"})"), "", folder.path()).warnings) {
     texts.push_back(warning.text());
   }
   EXPECT_TRUE(has_finding(texts));
@@ -202,7 +201,7 @@ TEST_F(RecordedJob, ReportsMistakes) {
   EXPECT_EQ(problem_pointer(with("/crowd/physical", true)), "/crowd/physical");
   EXPECT_EQ(problem_pointer(with("/capture/to_s", 60)), "/capture/to_s");
   EXPECT_EQ(problem_pointer(with("/capture/run_to_s", 60)), "/capture/run_to_s");
-  EXPECT_THROW(resolve_job(job().dump(), "", folder.path()), InputError);  // a request
+  EXPECT_THROW(resolve_job(job(), "", folder.path()), InputError);  // a request
 }
 
 }  // namespace

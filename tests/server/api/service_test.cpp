@@ -48,7 +48,7 @@ class ServiceTest : public ServiceFixture {
 
 TEST_F(ServiceTest, AJobRunsToItsDataset) {
   Service service(options(), executor);
-  const JobRow row = service.queue().submit({kJob}).row;
+  const JobRow row = service.queue().submit({job_document()}).row;
   EXPECT_EQ(row.name, "yard");
   ASSERT_TRUE(reaches(service, row.id, JobState::succeeded));
   EXPECT_TRUE(std::filesystem::exists(service.folders().dataset_folder(row.id) / "manifest.json"));
@@ -61,8 +61,8 @@ TEST_F(ServiceTest, AJobRunsToItsDataset) {
 TEST_F(ServiceTest, JobsRunInTheOrderTheyCame) {
   Gate gate(executor);
   Service service(options(), executor);
-  const JobRow first = service.queue().submit({kJob}).row;
-  const JobRow second = service.queue().submit({kJob}).row;
+  const JobRow first = service.queue().submit({job_document()}).row;
+  const JobRow second = service.queue().submit({job_document()}).row;
   ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
   EXPECT_EQ(service.queue().get(first.id)->state, JobState::running);
   EXPECT_EQ(service.queue().get(second.id)->state, JobState::queued);
@@ -79,8 +79,8 @@ TEST_F(ServiceTest, AFailureIsToldWithoutPathsAndTheNextJobRuns) {
                                  : TaskResult{};
   };
   Service service(options(), executor);
-  const JobRow bad = service.queue().submit({kJob}).row;
-  const JobRow good = service.queue().submit({kJob}).row;
+  const JobRow bad = service.queue().submit({job_document()}).row;
+  const JobRow good = service.queue().submit({job_document()}).row;
   ASSERT_TRUE(reaches(service, good.id, JobState::succeeded));
   const JobRow failed = service.queue().get(bad.id).value();
   EXPECT_EQ(failed.state, JobState::failed);
@@ -93,7 +93,7 @@ TEST_F(ServiceTest, AnInputErrorOfAWorkerKeepsItsPointers) {
     return TaskResult{Outcome::input_error, 1, "m", {{"", "/crowd/agents", "9", "at most 2"}}};
   };
   Service service(options(), executor);
-  const JobRow row = service.queue().submit({kJob}).row;
+  const JobRow row = service.queue().submit({job_document()}).row;
   ASSERT_TRUE(reaches(service, row.id, JobState::failed));
   const json error = json::parse(service.queue().get(row.id)->error_json);
   EXPECT_EQ(error["kind"], "input");
@@ -107,7 +107,7 @@ TEST_F(ServiceTest, NoPartOfAMistakeSaysWhereTheDataLie) {
     return TaskResult{Outcome::input_error, 1, "m", {{file, file, file, file}}};
   };
   Service service(options(), executor);
-  const JobRow row = service.queue().submit({kJob}).row;
+  const JobRow row = service.queue().submit({job_document()}).row;
   ASSERT_TRUE(reaches(service, row.id, JobState::failed));
   EXPECT_THAT(service.queue().get(row.id)->error_json, Not(HasSubstr(place)));
 }
@@ -118,8 +118,8 @@ TEST_F(ServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
   {
     Gate gate(executor);
     std::optional<Service> service(std::in_place, options(), executor);
-    running = service->queue().submit({kJob}).row.id;
-    queued = service->queue().submit({kJob}).row.id;
+    running = service->queue().submit({job_document()}).row.id;
+    queued = service->queue().submit({job_document()}).row.id;
     ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
     const std::jthread ender([&] { service.reset(); });
     // The task ends only after the service has begun to.
@@ -141,7 +141,7 @@ TEST_F(ServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
 TEST_F(ServiceTest, RemovingARunningJobEndsItAndItsFiles) {
   Gate gate(executor);
   Service service(options(), executor);
-  const JobRow row = service.queue().submit({kJob}).row;
+  const JobRow row = service.queue().submit({job_document()}).row;
   ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
   {
     // Its task ends only after it was asked to.
@@ -155,16 +155,16 @@ TEST_F(ServiceTest, RemovingARunningJobEndsItAndItsFiles) {
   EXPECT_FALSE(std::filesystem::exists(data.path() / "jobs" / row.id));
   EXPECT_FALSE(std::filesystem::exists(data.path() / "trash" / row.id));
   EXPECT_FALSE(service.housekeeping().remove(row.id));
-  const JobRow next = service.queue().submit({kJob}).row;
+  const JobRow next = service.queue().submit({job_document()}).row;
   EXPECT_TRUE(reaches(service, next.id, JobState::succeeded));
 }
 
 TEST_F(ServiceTest, RemovingAQueuedJobLeavesTheOthers) {
   Gate gate(executor);
   Service service(options(), executor);
-  const JobRow first = service.queue().submit({kJob}).row;
-  const JobRow second = service.queue().submit({kJob}).row;
-  const JobRow third = service.queue().submit({kJob}).row;
+  const JobRow first = service.queue().submit({job_document()}).row;
+  const JobRow second = service.queue().submit({job_document()}).row;
+  const JobRow third = service.queue().submit({job_document()}).row;
   EXPECT_TRUE(service.housekeeping().remove(second.id));
   gate.open();
   EXPECT_TRUE(reaches(service, third.id, JobState::succeeded));
@@ -180,7 +180,7 @@ TEST_F(ServiceTest, ManyClientsAtOnce) {
     for (std::size_t client = 0; client < clients.size(); ++client) {
       clients[client] = std::jthread([&, client] {
         for (int i = 0; i < 5; ++i) {
-          const JobRow row = service.queue().submit({kJob}).row;
+          const JobRow row = service.queue().submit({job_document()}).row;
           service.queue().list({.limit = 10});
           if (client % 2 == 0) {
             EXPECT_TRUE(service.housekeeping().remove(row.id));
@@ -210,7 +210,7 @@ TEST_F(ServiceTest, AJobMayEndWithSomeOfItsRuns) {
   };
   Service service(options(), executor);
   const std::string job = R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2}})";
-  const std::string id = service.queue().submit({job}).row.id;
+  const std::string id = service.queue().submit({json::parse(job)}).row.id;
   ASSERT_TRUE(reaches(service, id, JobState::partial));
   const json error = json::parse(service.queue().get(id)->error_json);
   EXPECT_EQ(error["kind"], "partial");
@@ -228,11 +228,11 @@ TEST_F(ServiceTest, AJobMayEndWithSomeOfItsRuns) {
 TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   std::atomic<std::int64_t> free = 1000;
   Service service(on_small_disk(free), executor);
-  const std::string id = service.queue().submit({kJob}).row.id;
+  const std::string id = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(wait_until([&] { return !service.queue().paused().empty(); }));
   EXPECT_EQ(service.queue().get(id)->state, JobState::running) << "nothing has failed";
   EXPECT_NE(service.queue().get(id)->waiting_for, "");
-  const std::string queued = service.queue().submit({kJob}).row.id;
+  const std::string queued = service.queue().submit({job_document()}).row.id;
   executor.before = [](const Task&) { return TaskResult{}; };
   free = 110;  // a little is not enough
   const int looks_before = looks;
@@ -249,7 +249,7 @@ TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
 TEST_F(ServiceTest, AJobThatFillsTheDiskAgainAndAgainFails) {
   std::atomic<std::int64_t> free = 1000;
   Service service(on_small_disk(free), executor);
-  const std::string large = service.queue().submit({kJob}).row.id;
+  const std::string large = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(wait_until([&] { return !service.queue().paused().empty(); }));
   free = 1000;
   ASSERT_TRUE(reaches(service, large, JobState::failed));
@@ -259,7 +259,8 @@ TEST_F(ServiceTest, AJobThatFillsTheDiskAgainAndAgainFails) {
   EXPECT_FALSE(std::filesystem::exists(service.folders().job_folder(large) / "work"));
   executor.before = [](const Task&) { return TaskResult{}; };
   free = 1000;
-  ASSERT_TRUE(reaches(service, service.queue().submit({kJob}).row.id, JobState::succeeded));
+  ASSERT_TRUE(
+      reaches(service, service.queue().submit({job_document()}).row.id, JobState::succeeded));
 }
 
 TEST_F(ServiceTest, AJobThatRunsSurvivesTheLossOfTheLock) {
@@ -274,9 +275,9 @@ TEST_F(ServiceTest, AJobThatRunsSurvivesTheLossOfTheLock) {
     return TaskResult{};
   };
   Service service(options(), executor);
-  const std::string id = service.queue().submit({kJob}).row.id;
+  const std::string id = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(wait_until([&] { return was_lost.load(); }));
-  EXPECT_TRUE(service.queue().submit({kJob}).is_new) << "the lock is taken again";
+  EXPECT_TRUE(service.queue().submit({job_document()}).is_new) << "the lock is taken again";
   std::filesystem::rename(away, lock);
   EXPECT_TRUE(reaches(service, id, JobState::succeeded));
 }
@@ -284,7 +285,7 @@ TEST_F(ServiceTest, AJobThatRunsSurvivesTheLossOfTheLock) {
 TEST_F(ServiceTest, NoSecondServiceStartsWhateverFilesAreRemoved) {
   const auto first = std::make_unique<Service>(options(), executor);
   Gate gate(executor);
-  const std::string id = first->queue().submit({kJob}).row.id;
+  const std::string id = first->queue().submit({job_document()}).row.id;
   ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
   jobs::FakeExecutor other;
   for (const char* name : {"lock", "reserve", "keys.sqlite"}) {
@@ -324,7 +325,7 @@ TEST_F(ServiceTest, RetryHealsTheNoteOfTheCharacters) {
     return TaskResult{};
   };
   Service service(options(), executor);
-  const std::string id = service.queue().submit({kJob}).row.id;
+  const std::string id = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(reaches(service, id, JobState::failed));
   const std::filesystem::path work = service.folders().job_folder(id) / "work";
   ASSERT_TRUE(std::filesystem::exists(work / "run000/shard0000"));
@@ -340,7 +341,9 @@ TEST_F(ServiceTest, EstimatesCountAmongTheBytesOfAKey) {
   Gate gate(executor);
   Service service(options(), executor);
   const auto submit = [&](std::int64_t max_bytes) {
-    return service.queue().submit({.job_json = kJob, .owner = "me", .max_bytes = max_bytes}).row;
+    return service.queue()
+        .submit({.job = job_document(), .owner = "me", .max_bytes = max_bytes})
+        .row;
   };
   const std::int64_t planned = submit(1LL << 40U).planned_bytes;
   EXPECT_GT(planned, 0);
@@ -366,8 +369,10 @@ TEST_F(ServiceTest, AJobLargerThanTheDiskIsRefused) {
     return "";
   };
   const std::string expected = "of the service's disk";
-  EXPECT_THAT(refusal([&] { service.queue().submit({.job_json = kLarge}); }), HasSubstr(expected));
-  EXPECT_THAT(refusal([&] { service.queue().dry_run(kLarge); }), HasSubstr(expected));
+  EXPECT_THAT(refusal([&] { service.queue().submit({.job = nlohmann::json::parse(kLarge)}); }),
+              HasSubstr(expected));
+  EXPECT_THAT(refusal([&] { service.queue().dry_run(nlohmann::json::parse(kLarge)); }),
+              HasSubstr(expected));
   EXPECT_TRUE(service.queue().list({}).empty());
 }
 
@@ -379,7 +384,7 @@ TEST_F(ServiceTest, ADryRunWarnsOfAJobLargerThanTheFreeDisk) {
         "drones": [{"id": "d1", "start": [0, 0, 20], "camera": {"width": 7680, "height": 4320}}],
         "outputs": {"annotations": ["coco", "depth", "flow"]}})");
     job["runs"] = runs;
-    return service.queue().dry_run(job.dump());
+    return service.queue().dry_run(job);
   };
   const json small = dry_run(1);
   EXPECT_THAT(small["warnings"].dump(), Not(HasSubstr("free on the service's disk")));
@@ -395,11 +400,11 @@ TEST_F(ServiceTest, JobsTeachTheSpeedOfTheMachine) {
     return TaskResult{Outcome::succeeded, 1, "", {}, 1e6};
   };
   Service service(options(), executor);
-  const json before = service.queue().dry_run(kJob)["estimate"];
+  const json before = service.queue().dry_run(job_document())["estimate"];
   EXPECT_EQ(before["basis"], "reference machine");
-  const JobRow row = service.queue().submit({kJob}).row;
+  const JobRow row = service.queue().submit({job_document()}).row;
   ASSERT_TRUE(reaches(service, row.id, JobState::succeeded));
-  const json after = service.queue().dry_run(kJob)["estimate"];
+  const json after = service.queue().dry_run(job_document())["estimate"];
   EXPECT_EQ(after["basis"], "this machine");
   EXPECT_NEAR(after["cpu_s"].get<double>(), 8 * before["cpu_s"].get<double>(), 0.5);
 }
@@ -417,7 +422,7 @@ TEST_F(ServiceTest, AReadOnlyOrFullDiskLetsTheQueueRestWithoutALimitToo) {
                         : TaskResult{};
   };
   Service service(limited, executor);
-  const std::string id = service.queue().submit({kJob}).row.id;
+  const std::string id = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(wait_until([&] { return service.queue().paused() == "the disk is read-only"; }));
   EXPECT_EQ(service.queue().get(id)->state, JobState::running) << "nothing has failed";
   free = 0;
@@ -479,7 +484,7 @@ TEST_F(ServiceTest, RetryHealsAJobWhoseFilesWereDeletedOrDamaged) {
       }};
   for (const auto& damage : damages) {
     fails = true;
-    const std::string id = service.queue().submit({kJob}).row.id;
+    const std::string id = service.queue().submit({job_document()}).row.id;
     ASSERT_TRUE(reaches(service, id, JobState::failed));
     damage(service.folders().job_folder(id));
     fails = false;
@@ -499,7 +504,7 @@ TEST_F(ServiceTest, AJobIsTakenUpAgainAfterTheMachineLackedFiles) {
     return TaskResult{};
   };
   Service service(options(), executor);
-  const std::string id = service.queue().submit({kJob}).row.id;
+  const std::string id = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(reaches(service, id, JobState::succeeded)) << service.queue().get(id)->error_json;
 }
 
@@ -510,15 +515,15 @@ TEST_F(ServiceTest, ExpiredJobsAreRemoved) {
   keeping.steady = keeping.clock;
   keeping.housekeeping.retention.max_wait_ms = 1000;
   Service service(keeping, executor);
-  const std::string old = service.queue().submit({kJob}).row.id;
-  const std::string kept = service.queue().submit({kJob}).row.id;
+  const std::string old = service.queue().submit({job_document()}).row.id;
+  const std::string kept = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(reaches(service, kept, JobState::succeeded));
   service.queue().change(kept, {.keep = true});
   now_ms += 999;
   service.housekeeping().remove_expired();
   EXPECT_TRUE(service.queue().get(old));
   now_ms += 1;
-  const std::string fresh = service.queue().submit({kJob}).row.id;
+  const std::string fresh = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(reaches(service, fresh, JobState::succeeded));
   service.housekeeping().remove_expired();
   EXPECT_FALSE(service.queue().get(old));
@@ -536,7 +541,7 @@ TEST_F(ServiceTest, JobsAreKeptAsLongWhateverTheClockIsSetTo) {
   keeping.steady = [&] { return steady_ms.load(); };
   keeping.housekeeping.retention.max_wait_ms = 1000;
   Service service(keeping, executor);
-  const std::string a = service.queue().submit({kJob}).row.id;
+  const std::string a = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(reaches(service, a, JobState::succeeded));
   for (const std::int64_t jump : {10 * kYearMs, -20 * kYearMs}) {
     wall_ms += jump;
@@ -544,7 +549,7 @@ TEST_F(ServiceTest, JobsAreKeptAsLongWhateverTheClockIsSetTo) {
     ASSERT_TRUE(service.queue().get(a));
   }
   wall_ms += 20 * kYearMs;
-  const std::string b = service.queue().submit({kJob}).row.id;
+  const std::string b = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(reaches(service, b, JobState::succeeded));
   wall_ms -= 15 * kYearMs;
   steady_ms += 1000;
@@ -555,23 +560,23 @@ TEST_F(ServiceTest, JobsAreKeptAsLongWhateverTheClockIsSetTo) {
 
 TEST_F(ServiceTest, NothingIsAcceptedOnceTheStoreWasRemoved) {
   Service service(options(), executor);
-  const std::string id = service.queue().submit({kJob}).row.id;
+  const std::string id = service.queue().submit({job_document()}).row.id;
   ASSERT_TRUE(reaches(service, id, JobState::succeeded));
   const std::filesystem::path file = data.path() / "jobs.sqlite";
   std::filesystem::rename(file, data.path() / "aside");
-  EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError);
+  EXPECT_THROW(service.queue().submit({job_document()}), EnvironmentError);
   EXPECT_THROW(service.queue().check_store(), EnvironmentError);
   write_file_atomically(file, "");  // another is not the same
-  EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError);
+  EXPECT_THROW(service.queue().submit({job_document()}), EnvironmentError);
   std::filesystem::rename(data.path() / "aside", file);
-  EXPECT_TRUE(service.queue().submit({kJob}).is_new);
+  EXPECT_TRUE(service.queue().submit({job_document()}).is_new);
 }
 
 TEST_F(ServiceTest, NothingIsAcceptedOnceAnotherProcessHasTheLock) {
   Service service(options(), executor);
   std::filesystem::remove(data.path() / "lock");
   const jobs::FolderLock other(data.path(), "lock", "data folder");
-  EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError);
+  EXPECT_THROW(service.queue().submit({job_document()}), EnvironmentError);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class BackupTest : public ServiceFixture {
   BackupTest() { fs::create_directories(work.path()); }
 
   std::string finished_job(Service& service) const {
-    const std::string id = service.queue().submit({.job_json = kJob}).row.id;
+    const std::string id = service.queue().submit({.job = job_document()}).row.id;
     EXPECT_TRUE(reaches(service, id, jobs::JobState::succeeded));
     return id;
   }
@@ -122,7 +122,7 @@ TEST_F(BackupTest, CanLeaveOutTheJobsThatHaveEnded) {
   Service service(options(), executor);
   finished_job(service);
   Gate gate(executor);
-  const std::string running = service.queue().submit({.job_json = kJob}).row.id;
+  const std::string running = service.queue().submit({.job = job_document()}).row.id;
   ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
   back_up({.data = data.path(), .output = out, .with_datasets = false}, kQuiet, {});
   gate.open();

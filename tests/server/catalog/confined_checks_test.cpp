@@ -29,7 +29,7 @@ class RealChecks : public ServiceFixture {
     really_options.max_task_mib = max_task_mib;
     Service service(really_options, executor);
     try {
-      service.queue().dry_run(job);
+      service.queue().dry_run(nlohmann::json::parse(job));
     } catch (const InputError& error) {
       return error.problems();
     }
@@ -77,7 +77,7 @@ TEST_F(RealChecks, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
 TEST_F(RealChecks, TheScenarioCompletesTheJob) {
   SKIP_WITHOUT_PROGRAM();
   Service service(really(options()), executor);
-  const std::string resolved = service.queue().dry_run(kJob).at("job").dump();
+  const std::string resolved = service.queue().dry_run(job_document()).at("job").dump();
   const jobs::JobSpec job = jobs::read_resolved_job(resolved, "").spec();
   EXPECT_FALSE(job.crowd.model.empty());
   ASSERT_EQ(job.drones.size(), 1U);
@@ -89,7 +89,7 @@ TEST_F(ServiceFixture, AChildThatDiesCostsOneRequest) {
   dying.confined = jobs::confined_task_in_child({"sh", "-c", "kill -SEGV $$"});
   Service service(dying, executor);
   try {
-    service.queue().submit({kJob});
+    service.queue().submit({job_document()});
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("ended by signal 11"));
@@ -121,10 +121,11 @@ TEST_F(ServiceFixture, AJobThatTheSchemaRefusesStartsNoChild) {
     return check_lightly(request);
   };
   Service service(counting, executor);
-  EXPECT_THROW(service.queue().submit({"{"}), InputError);
-  EXPECT_THROW(service.queue().submit({R"({"scenario": "yard", "runs": 0})"}), InputError);
+  EXPECT_THROW(
+      service.queue().submit({nlohmann::json::parse(R"({"scenario": "yard", "runs": 0})")}),
+      InputError);
   EXPECT_EQ(children, 0);
-  service.queue().submit({kJob});
+  service.queue().submit({job_document()});
   EXPECT_EQ(children, 1);
 }
 
@@ -134,8 +135,7 @@ TEST_F(ServiceFixture, ASlowCheckOfAJobWithABundleLetsOthersSubmit) {
   std::promise<void> go_on;
   const std::shared_future<void> may_go_on = go_on.get_future().share();
   slow.confined = [&, light = options().confined](const json& request, const fs::path& work) {
-    if (request["task"] == "job" &&
-        request["job"].get<std::string>().find("slow") != std::string::npos) {
+    if (request["task"] == "job" && request["job"].value("name", "") == "slow") {
       begun.set_value();
       may_go_on.wait();
     }
@@ -145,14 +145,16 @@ TEST_F(ServiceFixture, ASlowCheckOfAJobWithABundleLetsOthersSubmit) {
   const std::string bundle = yard_bundle();
   std::future<jobs::Added> first = std::async(std::launch::async, [&] {
     return service.queue().submit_with_bundle(
-        {R"({"name": "slow", "scenario": "bundle/yard", "capture": {"to_s": 2}})"}, bundle);
+        {nlohmann::json::parse(
+            R"({"name": "slow", "scenario": "bundle/yard", "capture": {"to_s": 2}})")},
+        bundle);
   });
   begun.get_future().wait();
-  EXPECT_TRUE(service.queue().submit({kJob}).is_new);
+  EXPECT_TRUE(service.queue().submit({job_document()}).is_new);
   // The bundle stays for the one that waits, although another that came with it is refused.
-  EXPECT_THROW(
-      service.queue().submit_with_bundle({R"({"scenario": "bundle/yard", "runs": 0})"}, bundle),
-      InputError);
+  EXPECT_THROW(service.queue().submit_with_bundle(
+                   {nlohmann::json::parse(R"({"scenario": "bundle/yard", "runs": 0})")}, bundle),
+               InputError);
   go_on.set_value();
   const jobs::Added added = first.get();
   EXPECT_TRUE(added.is_new);

@@ -1,6 +1,7 @@
 // The editor of blueprints: a plan to draw in, its elements' fields, and what the check finds.
-import { useEffect, useLayoutEffect, useMemo, useState } from "preact/hooks";
+import { useLayoutEffect, useMemo, useState } from "preact/hooks";
 import type { JsonObject } from "../form/json";
+import { useKeys } from "../parts/keys";
 import { useCheckedBlueprint } from "./check";
 import { type Element, elementsOf, rectangleOf } from "./elements";
 import { OpenBar, storeBlueprint, storedBlueprint, UploadPanel } from "./file";
@@ -8,8 +9,9 @@ import { FindingList } from "./findings";
 import { type History, useHistory } from "./history";
 import { kKinds, type Point } from "./kinds";
 import { middleOfPoints } from "./names";
-import { focusElement, PlanEditor, type Tool } from "./plan_editor";
+import { PlanEditor } from "./plan_editor";
 import { BlueprintFields, Properties } from "./properties";
+import { focusElement, type Tool } from "./tools";
 import { type Underlay, UnderlayPanel } from "./underlay";
 import { middleOf, useView, type View, zoomed } from "./view";
 
@@ -106,23 +108,19 @@ function ElementList({
 }
 
 /** Letters choose a tool, Control+Z and Control+Y go back and forth; not while something is typed. */
-function useKeys(history: History<JsonObject>, onTool: (tool: Tool) => void): void {
-  useEffect(() => {
-    const onKey = (event: KeyboardEvent) => {
-      const target = event.target as HTMLElement;
-      if (["INPUT", "SELECT", "TEXTAREA"].includes(target.tagName) || event.altKey) return;
-      const key = event.key.toLowerCase();
-      if (event.ctrlKey || event.metaKey) {
-        if (key === "z" && !event.shiftKey) history.undo();
-        else if (key === "y" || (key === "z" && event.shiftKey)) history.redo();
-        else return;
-        return event.preventDefault();
-      }
-      const tool = key === "escape" ? "select" : kTools.find((entry) => entry.key === key)?.tool;
-      if (tool) onTool(tool);
-    };
-    addEventListener("keydown", onKey);
-    return () => removeEventListener("keydown", onKey);
+function useEditorKeys(history: History<JsonObject>, onTool: (tool: Tool) => void): void {
+  useKeys((event) => {
+    const target = event.target as HTMLElement;
+    if (["INPUT", "SELECT", "TEXTAREA"].includes(target.tagName) || event.altKey) return;
+    const key = event.key.toLowerCase();
+    if (event.ctrlKey || event.metaKey) {
+      if (key === "z" && !event.shiftKey) history.undo();
+      else if (key === "y" || (key === "z" && event.shiftKey)) history.redo();
+      else return;
+      return event.preventDefault();
+    }
+    const tool = key === "escape" ? "select" : kTools.find((entry) => entry.key === key)?.tool;
+    if (tool) onTool(tool);
   });
 }
 
@@ -139,7 +137,7 @@ export function BlueprintScreen() {
   const check = useCheckedBlueprint(blueprint);
   // At once, so that a reload right after a change keeps it.
   useLayoutEffect(() => storeBlueprint(blueprint), [blueprint]);
-  useKeys(history, setTool);
+  useEditorKeys(history, setTool);
   const selected = elements.find((element) => element.pointer === pointer);
   const show = (element: Element) => {
     setPointer(element.pointer);

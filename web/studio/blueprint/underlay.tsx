@@ -34,8 +34,88 @@ interface UnderlayPanelProps {
   widthM: number; ///< of the ground, as wide as a new image is
 }
 
-export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: UnderlayPanelProps) {
+/** The scale, from two points that the user shows in the plan and their distance. */
+function ScaleByPoints({ underlay, onChange, points, onPoints }: Omit<UnderlayPanelProps, "widthM" | "underlay"> & { underlay: Underlay }) {
   const [distance, setDistance] = useState("10");
+  if (points === null) {
+    return (
+      <button type="button" class="button small" onClick={() => onPoints([])}>
+        Set the scale by two points
+      </button>
+    );
+  }
+  const apply = () => {
+    if (points.length === 2) onChange(scaled(underlay, points as [Point, Point], Number(distance)));
+    onPoints(null);
+  };
+  return (
+    <>
+      <p aria-live="polite">
+        {points.length < 2 ? `Click the ${points.length === 0 ? "first" : "second"} point in the plan.` : "How far apart are they?"}
+      </p>
+      <div class="row">
+        <label class="row grow">
+          Distance
+          <input class="short" inputMode="decimal" value={distance} onInput={(event) => setDistance(event.currentTarget.value)} /> m
+        </label>
+        <button type="button" class="button small" disabled={points.length < 2 || !(Number(distance) > 0)} onClick={apply}>
+          Apply
+        </button>
+      </div>
+    </>
+  );
+}
+
+interface EditedProps {
+  underlay: Underlay;
+  onChange: (underlay: Underlay) => void;
+}
+
+function Opacity({ underlay, onChange }: EditedProps) {
+  return (
+    <label class="row">
+      Opacity
+      <input
+        class="grow"
+        type="range"
+        min="0.1"
+        max="1"
+        step="0.05"
+        value={underlay.opacity}
+        onInput={(event) => onChange({ ...underlay, opacity: Number(event.currentTarget.value) })}
+      />
+    </label>
+  );
+}
+
+const kExtents = { x: "Left", y: "Top", width: "Width" };
+
+function Extent({ underlay, onChange }: EditedProps) {
+  const set = (key: keyof typeof kExtents, value: number) => {
+    if (!Number.isFinite(value) || (key === "width" && value <= 0)) return;
+    const height = key === "width" ? (underlay.height * value) / underlay.width : underlay.height;
+    onChange({ ...underlay, height, [key]: value });
+  };
+  return (
+    <div class="fields">
+      {(Object.keys(kExtents) as (keyof typeof kExtents)[]).map((key) => (
+        <label key={key} class="field">
+          <span class="field-name">
+            {kExtents[key]}
+            <span class="unit"> m</span>
+          </span>
+          <input
+            inputMode="decimal"
+            value={String(Math.round(100 * underlay[key]) / 100)}
+            onChange={(event) => set(key, Number(event.currentTarget.value))}
+          />
+        </label>
+      ))}
+    </div>
+  );
+}
+
+export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: UnderlayPanelProps) {
   const [error, setError] = useState<string | null>(null);
   const open = async (file: File) => {
     const url = URL.createObjectURL(file);
@@ -49,10 +129,6 @@ export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: 
     } catch {
       setError(`${file.name} is no image that this browser shows`);
     }
-  };
-  const apply = () => {
-    if (underlay && points?.length === 2) onChange(scaled(underlay, points as [Point, Point], Number(distance)));
-    onPoints(null);
   };
   return (
     <details class="part">
@@ -69,64 +145,9 @@ export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: 
         )}
         {underlay && (
           <>
-            <label class="row">
-              Opacity
-              <input
-                class="grow"
-                type="range"
-                min="0.1"
-                max="1"
-                step="0.05"
-                value={underlay.opacity}
-                onInput={(event) => onChange({ ...underlay, opacity: Number(event.currentTarget.value) })}
-              />
-            </label>
-            {points === null ? (
-              <button type="button" class="button small" onClick={() => onPoints([])}>
-                Set the scale by two points
-              </button>
-            ) : (
-              <>
-                <p aria-live="polite">
-                  {points.length < 2
-                    ? `Click the ${points.length === 0 ? "first" : "second"} point in the plan.`
-                    : "How far apart are they?"}
-                </p>
-                <div class="row">
-                  <label class="row grow">
-                    Distance
-                    <input class="short" inputMode="decimal" value={distance} onInput={(event) => setDistance(event.currentTarget.value)} />{" "}
-                    m
-                  </label>
-                  <button type="button" class="button small" disabled={points.length < 2 || !(Number(distance) > 0)} onClick={apply}>
-                    Apply
-                  </button>
-                </div>
-              </>
-            )}
-            <div class="fields">
-              {(["x", "y", "width"] as const).map((key) => (
-                <label key={key} class="field">
-                  <span class="field-name">
-                    {key === "width" ? "Width" : key === "x" ? "Left" : "Top"}
-                    <span class="unit"> m</span>
-                  </span>
-                  <input
-                    inputMode="decimal"
-                    value={String(Math.round(100 * underlay[key]) / 100)}
-                    onChange={(event) => {
-                      const value = Number(event.currentTarget.value);
-                      if (!Number.isFinite(value) || (key === "width" && value <= 0)) return;
-                      onChange(
-                        key === "width"
-                          ? { ...underlay, width: value, height: (underlay.height * value) / underlay.width }
-                          : { ...underlay, [key]: value },
-                      );
-                    }}
-                  />
-                </label>
-              ))}
-            </div>
+            <Opacity underlay={underlay} onChange={onChange} />
+            <ScaleByPoints {...{ underlay, onChange, points, onPoints }} />
+            <Extent underlay={underlay} onChange={onChange} />
             <button type="button" class="button small danger-text" onClick={() => onChange(null)}>
               Remove the image
             </button>

@@ -1,6 +1,7 @@
 // One image with its labels; everything has a key.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { useInterval, useSource } from "../api/resource";
+import { useKeys } from "../parts/keys";
 import type { Annotation, Dataset, ImageName } from "./coco";
 import { Follow, sightingsAt } from "./follow";
 import { type Coloring, type Drawing, kLayers } from "./overlay";
@@ -25,28 +26,25 @@ function storedLayers(): Set<string> {
   return new Set(stored === null ? ["boxes", "masks"] : stored.split(",").filter(Boolean));
 }
 
-export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
-  const neighbor = (frames: number, cameras: number) => dataset.neighbor(image, frames, cameras);
-  const source = useSource(dataset.address(image));
-  const { labels, error } = useLabels(dataset, image);
+/** The layers that are drawn, kept in this browser. */
+function useLayers() {
   const [layers, setLayers] = useState(storedLayers);
-  const [coloring, setColoring] = useState<Coloring>("track");
-  const [opacity, setOpacity] = useState(0.5);
-  const [hovered, setHovered] = useState<Annotation | null>(null);
-  const [selected, setSelected] = useState<number | null>(null);
-  const [isPlaying, setPlaying] = useState(false);
-  const [point, setPoint] = useState<[number, number] | null>(null);
-  const rasters = useRasters(dataset, image, layers);
   const toggle = (layer: string) => {
     const next = new Set(layers);
     if (!next.delete(layer)) next.add(layer);
     localStorage.setItem(kStorage, [...next].join(","));
     setLayers(next);
   };
+  return { layers, toggle };
+}
+
+/** Moves over frames and cameras, once or playing. Follows the selected person to another camera that sees them. */
+function useMoves({ dataset, image, onSelect }: Pick<ViewerProps, "dataset" | "image" | "onSelect">, selected: number | null) {
+  const [isPlaying, setPlaying] = useState(false);
+  const neighbor = (frames: number, cameras: number) => dataset.neighbor(image, frames, cameras);
   const go = (frames: number, cameras: number) => {
     const next = neighbor(frames, cameras);
     if (next) onSelect(next);
-    // A followed person out of this camera's sight is shown by another that sees them.
     if (next && frames !== 0 && selected !== null && dataset.hasLabels) {
       void sightingsAt(dataset, next, selected).then(
         (found) => {
@@ -59,36 +57,30 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
     return next !== null;
   };
   useInterval(() => go(1, 0) || setPlaying(false), isPlaying ? kPlayMs : 0);
-  const onKey = useRef<(event: KeyboardEvent) => void>(() => {});
-  onKey.current = (event) => {
+  return { neighbor, go, isPlaying, play: () => setPlaying(!isPlaying) };
+}
+
+const kSteps: Record<string, [number, number]> = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] };
+
+function useViewerKeys(moves: ReturnType<typeof useMoves>, toggle: (layer: string) => void, onClose: () => void) {
+  useKeys((event) => {
     const { target } = event;
     if (event.ctrlKey || event.metaKey || event.altKey || (target instanceof Element && target.matches("input, select, textarea"))) return;
     const layer = kLayers.find((entry) => entry.key === event.key.toLowerCase());
-    const steps: Record<string, [number, number]> = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] };
-    const step = steps[event.key];
+    const step = kSteps[event.key];
     if (layer) toggle(layer.id);
-    else if (step) go(...step);
+    else if (step) moves.go(...step);
     else if (event.key === "Escape") onClose();
-    else if (event.key === " " && !(target instanceof HTMLButtonElement)) setPlaying(!isPlaying);
+    else if (event.key === " " && !(target instanceof HTMLButtonElement)) moves.play();
     else return;
     event.preventDefault();
-  };
-  useEffect(() => {
-    const listener = (event: KeyboardEvent) => onKey.current(event);
-    addEventListener("keydown", listener);
-    return () => removeEventListener("keydown", listener);
-  }, []);
-  const shown = hovered ?? labels?.annotations.find((entry) => entry.track_id === selected) ?? null;
-  const drawing: Drawing = { layers, coloring, opacity, selected: shown?.track_id ?? selected };
-  const values = point === null ? [] : rasters.list.map(({ raster }) => valueText(raster, ...point)).filter((text) => text !== null);
+  });
+}
+
+/** Problems of labels and rasters, and the legends of rasters. */
+function Notes({ error, rasters }: { error: string | null; rasters: ReturnType<typeof useRasters> }) {
   return (
-    <div class="viewer">
-      <ViewerHead {...{ image, labels, isPlaying, neighbor, onClose }} onGo={go} onPlay={() => setPlaying(!isPlaying)} />
-      {dataset.hasLabels ? (
-        <Tools {...{ layers, coloring, opacity }} onToggle={toggle} onColoring={setColoring} onOpacity={setOpacity} />
-      ) : (
-        <p class="notice warn">This dataset has no COCO annotations, so there are no labels to show.</p>
-      )}
+    <>
       {error && (
         <p class="notice bad" role="alert">
           {error}
@@ -104,12 +96,45 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
           {legend}
         </p>
       ))}
+    </>
+  );
+}
+
+export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
+  const source = useSource(dataset.address(image));
+  const { labels, error } = useLabels(dataset, image);
+  const { layers, toggle } = useLayers();
+  const [coloring, setColoring] = useState<Coloring>("track");
+  const [opacity, setOpacity] = useState(0.5);
+  const [hovered, setHovered] = useState<Annotation | null>(null);
+  const [selected, setSelected] = useState<number | null>(null);
+  const [point, setPoint] = useState<[number, number] | null>(null);
+  const rasters = useRasters(dataset, image, layers);
+  const moves = useMoves({ dataset, image, onSelect }, selected);
+  useViewerKeys(moves, toggle, onClose);
+  const shown = hovered ?? labels?.annotations.find((entry) => entry.track_id === selected) ?? null;
+  const drawing: Drawing = { layers, coloring, opacity, selected: shown?.track_id ?? selected };
+  const values = point === null ? [] : rasters.list.map(({ raster }) => valueText(raster, ...point)).filter((text) => text !== null);
+  return (
+    <div class="viewer">
+      <ViewerHead
+        {...{ image, labels, onClose }}
+        isPlaying={moves.isPlaying}
+        neighbor={moves.neighbor}
+        onGo={moves.go}
+        onPlay={moves.play}
+      />
+      {dataset.hasLabels ? (
+        <Tools {...{ layers, coloring, opacity }} onToggle={toggle} onColoring={setColoring} onOpacity={setOpacity} />
+      ) : (
+        <p class="notice warn">This dataset has no COCO annotations, so there are no labels to show.</p>
+      )}
+      <Notes error={error} rasters={rasters} />
       <div class="viewer-body">
         <div class={`stage ${shown ? "pointing" : ""}`}>
           {source && <img src={source} alt={`${image.run}, camera ${image.camera}, frame ${image.frame}`} />}
           <LabelCanvas
-            labels={labels}
-            drawing={drawing}
+            {...{ labels, drawing }}
             rasters={rasters.list}
             onHover={setHovered}
             onPoint={setPoint}
@@ -118,9 +143,7 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
         </div>
         <aside aria-label="Person" class="card person">
           {values.length > 0 && <p class="pixel-values">{values.join(" · ")}</p>}
-          {selected !== null && (
-            <Follow dataset={dataset} image={image} track={selected} onSelect={onSelect} onEnd={() => setSelected(null)} />
-          )}
+          {selected !== null && <Follow {...{ dataset, image, onSelect }} track={selected} onEnd={() => setSelected(null)} />}
           {shown ? (
             <PersonRecord dataset={dataset} annotation={shown} />
           ) : (

@@ -1,5 +1,5 @@
 // One run over time: every camera, the plan, the escape curve and the exits share one time.
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useState } from "preact/hooks";
 import { ApiError, request } from "../api/client";
 import { useInterval, useJson, useSource } from "../api/resource";
 import type { Job, Scenario } from "../api/types";
@@ -11,6 +11,7 @@ import type { Drawing } from "../dataset/overlay";
 import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
 import { ErrorBox, Figures } from "../parts/elements";
 import { GoneJob } from "../parts/gone";
+import { useKeys } from "../parts/keys";
 import { navigate, useAddress, withQuery } from "../parts/router";
 import { type Capture, captureOf, frameAt, timeOf } from "./capture";
 import { Defined } from "./definitions";
@@ -106,64 +107,106 @@ interface TimelineProps {
   scenario: Scenario | null;
 }
 
-function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
+/** The frame that all views of a run show: the one of the address, or the first. */
+function useFrame(dataset: Dataset, run: string, capture: Capture) {
   const { query } = useAddress();
+  const [isPlaying, setPlaying] = useState(false);
   const cameras = dataset.camerasOf(run);
   const first = Math.min(...cameras.map((camera) => camera.first));
   const last = Math.max(...cameras.map((camera) => camera.last));
-  const metrics = useJson<Metrics>(`/v1/jobs/${dataset.job}/runs/${number}/metrics`);
-  const [labels, setLabels] = useState<Record<string, Labels | null>>({});
-  const [hasBoxes, setBoxes] = useState(true);
-  const [isPlaying, setPlaying] = useState(false);
   const inRange = (value: number) => Math.min(last, Math.max(first, value));
   const frame = inRange(Math.round(Number(query.get("frame") ?? first) || first));
-  const time_s = timeOf(capture, frame);
-  const end_s = Math.max(metrics.value?.duration_s ?? 0, timeOf(capture, last));
-  const exits = useExits(`/v1/jobs/${dataset.job}/runs/${number}/metrics.csv`, metrics.value?.duration_s);
-  const trajectories = useTrajectories(dataset.job, number, capture, frame);
   const show = (next: number) => navigate(withQuery(query, { frame: inRange(next) }), { replace: true });
-  const onTime = (time: number) => show(frameAt(capture, time));
+  const play = () => setPlaying(!isPlaying);
   useInterval(() => (frame < last ? show(frame + 1) : setPlaying(false)), isPlaying ? kPlayMs : 0);
-  const onKey = useRef<(event: KeyboardEvent) => void>(() => {});
-  onKey.current = (event) => {
+  useKeys((event) => {
     if (event.target instanceof Element && event.target.matches("input, select, button, a, summary")) return;
-    if (event.key === " ") setPlaying(!isPlaying);
+    if (event.key === " ") play();
     else if (event.key === "ArrowRight") show(frame + 1);
     else if (event.key === "ArrowLeft") show(frame - 1);
     else return;
     event.preventDefault();
-  };
-  useEffect(() => {
-    const listener = (event: KeyboardEvent) => onKey.current(event);
-    addEventListener("keydown", listener);
-    return () => removeEventListener("keydown", listener);
-  }, []);
+  });
+  return { cameras, first, last, frame, time_s: timeOf(capture, frame), show, isPlaying, play };
+}
+
+interface TimeBarProps {
+  shown: ReturnType<typeof useFrame>;
+  hasBoxes: boolean;
+  onBoxes: (hasBoxes: boolean) => void;
+}
+
+function TimeBar({ shown, hasBoxes, onBoxes }: TimeBarProps) {
+  return (
+    <div class="time-bar card">
+      <button type="button" class="button" aria-pressed={shown.isPlaying} onClick={shown.play}>
+        {shown.isPlaying ? "Pause" : "Play"}
+      </button>
+      <input
+        type="range"
+        aria-label="Time"
+        aria-valuetext={`${shown.time_s.toFixed(1)} s`}
+        min={shown.first}
+        max={shown.last}
+        value={shown.frame}
+        onInput={(event) => shown.show(Number(event.currentTarget.value))}
+      />
+      <output>{shown.time_s.toFixed(1)} s</output>
+      <label class="row">
+        <input type="checkbox" checked={hasBoxes} onChange={(event) => onBoxes(event.currentTarget.checked)} />
+        Boxes
+      </label>
+    </div>
+  );
+}
+
+interface ChartsProps {
+  metrics: Metrics;
+  exits: ExitHistory[];
+  chart: { time_s: number; end_s: number; onTime: (time_s: number) => void };
+}
+
+function RunCharts({ metrics, exits, chart }: ChartsProps) {
+  return (
+    <section class="card run-charts" aria-labelledby="escape">
+      <h2 id="escape">Escaped by time</h2>
+      <Figures list={countsOf(metrics)} />
+      <Figures list={figuresOf(metrics)} />
+      {metrics.warnings?.map((warning) => (
+        <p key={warning} class="run-warning">
+          Warning: {warning}.
+        </p>
+      ))}
+      <EscapeCurve {...chart} shares={metrics.escape_curve.escaped_share} alarm_s={metrics.alarm_s} />
+      <h2>Events</h2>
+      <EventChart {...chart} metrics={metrics} />
+      {exits.length > 0 && (
+        <>
+          <h2>Exits</h2>
+          <ExitChart {...chart} histories={exits} />
+        </>
+      )}
+    </section>
+  );
+}
+
+function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
+  const shown = useFrame(dataset, run, capture);
+  const { cameras, frame } = shown;
+  const metrics = useJson<Metrics>(`/v1/jobs/${dataset.job}/runs/${number}/metrics`);
+  const [labels, setLabels] = useState<Record<string, Labels | null>>({});
+  const [hasBoxes, setBoxes] = useState(true);
+  const end_s = Math.max(metrics.value?.duration_s ?? 0, timeOf(capture, shown.last));
+  const exits = useExits(`/v1/jobs/${dataset.job}/runs/${number}/metrics.csv`, metrics.value?.duration_s);
+  const trajectories = useTrajectories(dataset.job, number, capture, frame);
   const drawing: Drawing = useMemo(
     () => ({ layers: new Set(hasBoxes ? ["boxes"] : []), coloring: "state", opacity: 0.5, selected: null }),
     [hasBoxes],
   );
-  const chart = { time_s, end_s, onTime };
+  const chart = { time_s: shown.time_s, end_s, onTime: (time_s: number) => shown.show(frameAt(capture, time_s)) };
   return (
     <>
-      <div class="time-bar card">
-        <button type="button" class="button" aria-pressed={isPlaying} onClick={() => setPlaying(!isPlaying)}>
-          {isPlaying ? "Pause" : "Play"}
-        </button>
-        <input
-          type="range"
-          aria-label="Time"
-          aria-valuetext={`${time_s.toFixed(1)} s`}
-          min={first}
-          max={last}
-          value={frame}
-          onInput={(event) => show(Number(event.currentTarget.value))}
-        />
-        <output>{time_s.toFixed(1)} s</output>
-        <label class="row">
-          <input type="checkbox" checked={hasBoxes} onChange={(event) => setBoxes(event.currentTarget.checked)} />
-          Boxes
-        </label>
-      </div>
+      <TimeBar shown={shown} hasBoxes={hasBoxes} onBoxes={setBoxes} />
       <div class="run-views">
         <div class="run-cameras">
           {cameras.map(({ camera }) => {
@@ -189,27 +232,7 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
         )}
       </div>
       {metrics.error && metrics.error.status !== 401 && <ErrorBox error={metrics.error} />}
-      {metrics.value && (
-        <section class="card run-charts" aria-labelledby="escape">
-          <h2 id="escape">Escaped by time</h2>
-          <Figures list={countsOf(metrics.value)} />
-          <Figures list={figuresOf(metrics.value)} />
-          {metrics.value.warnings?.map((warning) => (
-            <p key={warning} class="run-warning">
-              Warning: {warning}.
-            </p>
-          ))}
-          <EscapeCurve {...chart} shares={metrics.value.escape_curve.escaped_share} alarm_s={metrics.value.alarm_s} />
-          <h2>Events</h2>
-          <EventChart {...chart} metrics={metrics.value} />
-          {exits.length > 0 && (
-            <>
-              <h2>Exits</h2>
-              <ExitChart {...chart} histories={exits} />
-            </>
-          )}
-        </section>
-      )}
+      {metrics.value && <RunCharts metrics={metrics.value} exits={exits} chart={chart} />}
     </>
   );
 }

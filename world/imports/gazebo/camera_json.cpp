@@ -13,6 +13,7 @@
 namespace throng::imports {
 
 using Eigen::Vector3d;
+using nlohmann::json;
 using nlohmann::ordered_json;
 
 namespace {
@@ -83,11 +84,10 @@ ordered_json camera_json(const CameraSensor& camera, const Vector3d& center,
 }
 
 std::optional<std::string> camera_refusal(const ordered_json& camera) {
-  const ordered_json drone = {{"id", "d1"}, {"camera", camera}};
-  const ordered_json job = {{"scenario", "city_square/everyday"},
-                            {"drones", ordered_json::array({drone})}};
+  const json drone = {{"id", "d1"}, {"camera", camera}};
+  const json job = {{"scenario", "city_square/everyday"}, {"drones", json::array({drone})}};
   try {
-    jobs::parse_job(job.dump(), "");
+    jobs::check_and_read_job(job, "");
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();
     const std::string field = problem.where.substr(problem.where.rfind('/') + 1);

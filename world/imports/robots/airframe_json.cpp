@@ -248,7 +248,7 @@ class AirframeMaker {
     const json job = {{"scenario", "city_square/everyday"},
                       {"drones", json::array({{{"id", "d1"}, {"airframe", frame_}}})}};
     try {
-      jobs::parse_job(job.dump(), file_);
+      jobs::check_and_read_job(job, file_);
     } catch (const InputError& error) {
       std::vector<Problem> problems = error.problems();
       for (Problem& problem : problems) {

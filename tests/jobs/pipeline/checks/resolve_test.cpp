@@ -27,12 +27,13 @@ class Resolve : public testing::Test {
   Resolve() { write_yard(folder.path()); }
 
   JobSpec resolved(const std::string& text) const {
-    return resolve_job(text, "test.job.json", folder.path()).spec();
+    return resolve_job(parse_job_document(text, "test.job.json"), "test.job.json", folder.path())
+        .spec();
   }
 
   /// A job file in the scenarios' folder.
   JobSpec resolved_file(const json& job) const {
-    return resolve_job(job.dump(), (folder.path() / "job.json").string(), folder.path()).spec();
+    return resolve_job(job, (folder.path() / "job.json").string(), folder.path()).spec();
   }
 
   std::vector<Problem> list_problems(const std::string& text) const {
