@@ -54,6 +54,10 @@ std::set<std::string> job_uploads(const json& spec, jobs::JobKind kind) {
   return uploads;
 }
 
+std::set<std::string> job_uploads(const JobRow& row) {
+  return job_uploads(parse_json_or_discard(row.spec_json), row.kind);
+}
+
 }  // namespace
 
 void name_bundle(std::string_view bundle, json& job) {
@@ -96,8 +100,7 @@ std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
       std::vector<JobRow> rows = jobs_.list(filter);
       for (const JobRow& row : rows) {
         if (row.spec_json.find(beginning) == std::string::npos) continue;
-        if (job_uploads(parse_json_or_discard(row.spec_json), row.kind).contains(upload))
-          found.push_back(row);
+        if (job_uploads(row).contains(upload)) found.push_back(row);
       }
       if (rows.empty()) break;
       filter.after = rows.back().id;
@@ -184,7 +187,7 @@ void Uploads::drop_if_unused(const std::string& bundle) {
 }
 
 void Uploads::drop_bundle_of(const JobRow& removed) {
-  for (const std::string& name : job_uploads(removed.spec_json, removed.kind)) {
+  for (const std::string& name : job_uploads(removed)) {
     if (!is_bundle_name(name)) continue;
     const std::unique_lock lock(mutex_);
     drop_if_unused(name);
