@@ -56,10 +56,10 @@ class FirstProgram(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             request = {"task": "calibration", "request": {}, "files": folder}
             (pathlib.Path(folder) / "request.json").write_text(json.dumps(request))
-            subprocess.run([FIRST, "confined", folder], capture_output=True, check=False)
-            answer = (pathlib.Path(folder) / "answer.json").read_text()
-            self.assertIn("does not have the work", answer)
-            self.assertIn("scripts/setup.sh", answer)
+            done = subprocess.run([FIRST, "confined", folder], capture_output=True, check=False, text=True)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn("does not have the work", done.stderr)
+            self.assertIn("scripts/setup.sh", done.stderr)
 
 
 if __name__ == "__main__":
