@@ -247,6 +247,7 @@ class Calibrate(unittest.TestCase):
         answer = client.getresponse()
         queued = json.loads(answer.read())
         self.assertEqual(answer.status, 201, queued)
+        client.close()  # an idle connection lives for two seconds; the next request opens another
 
         def asked():
             with urllib.request.urlopen(url + queued["links"]["self"]) as shown:
