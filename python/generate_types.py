@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Writes throng/job.py from spec/job/job.schema.json and throng/api_types.py from server/openapi.json.
+"""Writes throng/job.py from spec/job/job.schema.json and throng/api_types.py from `throng schema openapi`.
 
-usage: python/generate_types.py [--check]    --check writes nothing and exits with 1 if a file is not up to date
+usage: python/generate_types.py THRONG [--check]    --check writes nothing and exits with 1 if a file is not up to date
 """
 from __future__ import annotations
 
 import json
 import keyword
+import subprocess
 import sys
 import textwrap
 from pathlib import Path
@@ -165,7 +166,7 @@ class ApiTypes:
     def text(self) -> str:
         head = '''"""Answers of the service as TypedDicts.
 
-Made by python/generate_types.py from server/openapi.json; do not edit.
+Made by python/generate_types.py from `throng schema openapi`; do not edit.
 """
 
 from __future__ import annotations
@@ -184,22 +185,21 @@ from typing import Any, Literal, NotRequired, TypedDict
         return head + "\n" + "\n\n".join(self.bodies.values()) + "\n\n" + table
 
 
-def generated() -> dict[Path, str]:
+def generated(throng: str) -> dict[Path, str]:
     schema = json.loads((ROOT / "spec/job/job.schema.json").read_text(encoding="utf-8"))
-    document = json.loads((ROOT / "server/openapi.json").read_text(encoding="utf-8"))
+    document = json.loads(subprocess.check_output([throng, "schema", "openapi"]))
     package = ROOT / "python/throng"
     return {package / "job.py": JobTypes(schema).text(), package / "api_types.py": ApiTypes(document).text()}
 
 
 def main() -> int:
-    stale = [
-        path for path, text in generated().items() if not path.exists() or path.read_text(encoding="utf-8") != text
-    ]
+    files = generated(sys.argv[1])
+    stale = [path for path, text in files.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
     if "--check" in sys.argv[1:]:
         for path in stale:
             print(f"{path.relative_to(ROOT)} is not what python/generate_types.py makes", file=sys.stderr)
         return 1 if stale else 0
-    for path, text in generated().items():
+    for path, text in files.items():
         path.write_text(text, encoding="utf-8")
     return 0
 

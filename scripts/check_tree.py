@@ -25,7 +25,6 @@ RULES = [
     ("base/schemas/*.schema.json", 64),
     ("spec/*.json", 96),
     ("skinning/assets/*.json", 16),
-    ("server/openapi.json", 192),
     ("server/throng.service", 8),
     ("python/throng/*.py", 48),
     ("python/generate_types.py", 16),

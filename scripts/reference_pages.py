@@ -4,7 +4,7 @@
 usage: scripts/reference_pages.py [THRONG] [--check]    default: build/release/cli/throng
 --check writes nothing, names the pages that are not up to date and exits with 1.
 
-Commands are those that `throng help` prints, routes those of server/openapi.json, fields those of the JSON Schemas that
+Commands are those that `throng help` prints, routes those of `throng schema openapi`, fields those of the JSON Schemas that
 `throng schema` prints. docs/reference/structure.md is written by scripts/measure_structure.py.
 """
 import json
@@ -246,12 +246,10 @@ def route_text(schema, method, path, route):
     return text + answers_text(schema, route["responses"])
 
 
-def api_page():
-    document = json.loads((ROOT / "server/openapi.json").read_text(encoding="utf-8"))
+def api_page(throng):
+    document = json.loads(subprocess.check_output([throng, "schema", "openapi"]))
     schema = Schema(document, document["components"]["schemas"])
-    text = (
-        f"# Routes of the HTTP API\n\n{NOTE.format('`server/openapi.json`, which a service sends as `/openapi.json`')}"
-    )
+    text = f"# Routes of the HTTP API\n\n{NOTE.format('`throng schema openapi`, which a service sends as `/openapi.json`')}"
     text += "[api.md](../api.md) explains keys, uploads and errors.\n"
     tags = {}
     for path, routes in document["paths"].items():
@@ -329,7 +327,7 @@ def pages(throng):
     vocabulary = subprocess.run(
         [throng, "crowd", "--list", "--markdown"], capture_output=True, encoding="utf-8", check=True
     )
-    made = {"cli": cli_page(throng), "api": api_page(), "crowd_vocabulary": vocabulary.stdout}
+    made = {"cli": cli_page(throng), "api": api_page(throng), "crowd_vocabulary": vocabulary.stdout}
     return {**made, **{kind: file_page(kind) for kind in FILES}}
 
 

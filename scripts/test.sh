@@ -51,7 +51,7 @@ run_parts() {
 
 step_format() {
   say "checking the format, the language and the types"
-  run_parts tree cpp_format json_readers python_format shell language generated_types python_types
+  run_parts tree cpp_format json_readers python_format shell language python_types
 }
 tree() { /usr/bin/python3 scripts/check_tree.py; }
 cpp_format() { sources | xargs clang-format --dry-run --Werror; }
@@ -69,7 +69,6 @@ python_format() {
 }
 shell() { git ls-files --cached --others --exclude-standard -- '*.sh' .ci/run | xargs shellcheck; }
 language() { /usr/bin/python3 scripts/check_language.py; }
-generated_types() { /usr/bin/python3 python/generate_types.py --check; }
 python_types() { mypy --strict --cache-dir "$stamps/mypy" python/throng python/generate_types.py; }
 
 # Each test program of a module runs once: those that compute with this build, the others with the sanitizers' (cmake/

@@ -1,4 +1,4 @@
-// throng schema: the JSON Schemas of files, for editors.
+// throng schema: the JSON Schemas of files, for editors, and the description of the HTTP API.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -9,11 +9,14 @@
 #include "base/files/files.h"
 #include "base/text/suggest.h"
 #include "cli/shell/commands.h"
+#include "server/description/openapi_text.h"
 #include "spec/documents/published_schemas.h"
 
 namespace throng::cli {
 
 namespace {
+
+constexpr std::string_view kApi = "openapi";
 
 struct SchemaArguments {
   std::string name;
@@ -21,7 +24,7 @@ struct SchemaArguments {
 };
 
 void print_schema(const SchemaArguments& arguments) {
-  const std::vector<std::string_view> names = jobs::schema_names();
+  std::vector<std::string_view> names = jobs::schema_names();
   if (!arguments.folder.empty()) {
     for (const std::string_view name : names) {
       const auto file =
@@ -35,8 +38,10 @@ void print_schema(const SchemaArguments& arguments) {
     for (const std::string_view name : names) fmt::print("{}\n", name);
     return;
   }
-  const std::string text = jobs::published_schema(arguments.name);
+  const std::string text =
+      arguments.name == kApi ? server::openapi_text() : jobs::published_schema(arguments.name);
   if (text.empty()) {
+    names.push_back(kApi);
     throw InputError(unknown_name("", "schema", "schema", arguments.name, names));
   }
   fmt::print("{}", text);
@@ -48,7 +53,8 @@ void add_schema(CLI::App& app) {
   auto* command =
       app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
   const auto arguments = std::make_shared<SchemaArguments>();
-  command->add_option("name", arguments->name, "Kind of file; without it, list them");
+  command->add_option("name", arguments->name,
+                      "Kind of file, or openapi for the HTTP API; without it, list the kinds");
   command->add_option("-o,--output", arguments->folder,
                       "Folder to write all of them to, as NAME.schema.json");
   command->callback([arguments] { print_schema(*arguments); });

@@ -1,6 +1,6 @@
 """Answers of the service as TypedDicts.
 
-Made by python/generate_types.py from server/openapi.json; do not edit.
+Made by python/generate_types.py from `throng schema openapi`; do not edit.
 """
 
 from __future__ import annotations
@@ -194,7 +194,7 @@ class Event(TypedDict):
     seq: int
     job: str
     at: str
-    type: Literal["submitted", "started", "resumed", "stage", "succeeded", "failed", "cancelled", "retried", "changed", "removed"]
+    type: Literal["submitted", "stage", "changed", "removed", "started", "resumed", "succeeded", "partial", "failed", "cancelled", "retried"]
     data: dict[str, Any]
 
 
@@ -526,189 +526,6 @@ class StudyValues(TypedDict):
     cases: list[StudyValuesCase]
 
 
-class ScenarioExit(TypedDict):
-    """ScenarioExit of the service."""
-
-    id: str
-    width_m: float
-    open: bool
-
-
-class ScenarioDrone(TypedDict):
-    """ScenarioDrone of the service."""
-
-    id: str
-    start_m: list[float]
-    yaw_deg: float
-    """Heading of the drone, counter-clockwise from +x."""
-
-
-class Scenario(TypedDict):
-    """Scenario of the service."""
-
-    id: str
-    name: NotRequired[str]
-    description: NotRequired[str]
-    crowd_model: NotRequired[str | None]
-    ground_m: NotRequired[list[float]]
-    exits: NotRequired[list[ScenarioExit]]
-    drones: NotRequired[list[ScenarioDrone]]
-    buildings: NotRequired[int]
-    props: NotRequired[int]
-    error: NotRequired[str]
-    """Reason why the scenario cannot be used."""
-    uploaded: NotRequired[None | Upload]
-    """Upload that it is from; null: it came with throng."""
-
-
-class ScenarioList(TypedDict):
-    """ScenarioList of the service."""
-
-    scenarios: list[Scenario]
-    next: str | None
-    """Where the next page begins: `?after=`. A page ends when it has 4 MiB."""
-
-
-class UploadFinding(TypedDict):
-    """UploadFinding of the service."""
-
-    pointer: str
-    found: str
-    expected: str
-    message: str
-    severity: Literal["error", "warning"]
-    remedy: str
-
-
-class Upload(TypedDict):
-    """Upload of the service."""
-
-    name: str
-    owner: str
-    """Id of the key that sent it."""
-    created_at: str
-    bytes: int
-    files: int
-    ids: NotRequired[list[str]]
-    """Ids of its scenarios."""
-    findings: NotRequired[list[UploadFinding]]
-    """Findings that do not prevent the upload (throng scenario check)."""
-
-
-JobField = Any
-
-
-class Mistake(TypedDict):
-    """Mistake of the service."""
-
-    pointer: str
-    found: str
-    expected: str
-    message: str
-    source: NotRequired[str]
-
-
-class Problem(TypedDict):
-    """A problem document (RFC 9457)."""
-
-    type: str
-    title: str
-    status: int
-    detail: str
-    errors: NotRequired[list[Mistake]]
-
-
-class KeyEnded(TypedDict):
-    """In the answer to its revocation: what the key had under way, which was cancelled."""
-
-    jobs: int
-    live_flights: int
-
-
-class Key(TypedDict):
-    """Key of the service."""
-
-    id: str
-    name: str
-    scope: Literal["read", "submit", "admin"]
-    max_jobs: int | None
-    """Maximum number of jobs that wait or run at once; null: any number."""
-    max_bytes: int | None
-    """Maximum disk space of all the key's jobs; null: any."""
-    max_priority: int
-    """Maximum priority of the key's jobs, from -100 to 100."""
-    created_at: str | None
-    revoked_at: str | None
-    """Time when the key was revoked; null: it is valid."""
-    expires_at: str | None
-    """Time from which on callers with the key get 401; null: never."""
-    links: dict[str, str]
-    ended: NotRequired[KeyEnded]
-    """In the answer to its revocation: what the key had under way, which was cancelled."""
-    key: NotRequired[str]
-    """The key itself, which callers send; only in the answer to its creation."""
-
-
-class KeyList(TypedDict):
-    """KeyList of the service."""
-
-    keys: list[Key]
-
-
-class Webhook(TypedDict):
-    """Webhook of the service."""
-
-    id: str
-    url: str
-    events: list[str]
-    enabled: bool
-    """Whether it is in use; it goes out of use after failing for a day."""
-    created_at: str | None
-    delivered_up_to: int
-    """Number of the last event that is settled."""
-    failures: int
-    """Number of failures in a row."""
-    failing_since: str | None
-    links: dict[str, str]
-    secret: NotRequired[str]
-    """Secret that signs deliveries; only in the answer to its creation."""
-
-
-class WebhookList(TypedDict):
-    """WebhookList of the service."""
-
-    webhooks: list[Webhook]
-
-
-class Delivery(TypedDict):
-    """Delivery of the service."""
-
-    event: int
-    """Number of the event; 0 for a ping."""
-    type: str
-    at: str | None
-    attempt: int
-    status: int | None
-    error: str | None
-    took_ms: int
-    succeeded: bool
-
-
-class DeliveryList(TypedDict):
-    """DeliveryList of the service."""
-
-    deliveries: list[Delivery]
-
-
-class Session(TypedDict):
-    """Session of the service."""
-
-    needs_key: bool
-    """Whether callers need a key."""
-    scope: str | None
-    """Scope of the caller: read, submit or admin; null without a valid key."""
-
-
 class LiveFlightError(TypedDict):
     """LiveFlightError of the service."""
 
@@ -817,6 +634,196 @@ class LiveCommands(TypedDict):
     drones: NotRequired[list[LiveCommandsDrone]]
 
 
+class ScenarioExit(TypedDict):
+    """ScenarioExit of the service."""
+
+    id: str
+    width_m: float
+    open: bool
+
+
+class ScenarioDrone(TypedDict):
+    """ScenarioDrone of the service."""
+
+    id: str
+    start_m: list[float]
+    yaw_deg: float
+    """Heading of the drone, counter-clockwise from +x."""
+
+
+class Scenario(TypedDict):
+    """Scenario of the service."""
+
+    id: str
+    name: NotRequired[str]
+    description: NotRequired[str]
+    crowd_model: NotRequired[str | None]
+    ground_m: NotRequired[list[float]]
+    exits: NotRequired[list[ScenarioExit]]
+    drones: NotRequired[list[ScenarioDrone]]
+    buildings: NotRequired[int]
+    props: NotRequired[int]
+    error: NotRequired[str]
+    """Reason why the scenario cannot be used."""
+    uploaded: NotRequired[Upload | None]
+    """Upload that it is from; null: it came with throng."""
+
+
+class ScenarioList(TypedDict):
+    """ScenarioList of the service."""
+
+    scenarios: list[Scenario]
+    next: str | None
+    """Where the next page begins: `?after=`. A page ends when it has 4 MiB."""
+
+
+class UploadFinding(TypedDict):
+    """UploadFinding of the service."""
+
+    pointer: str
+    found: str
+    expected: str
+    message: str
+    severity: Literal["error", "warning"]
+    remedy: str
+
+
+class Upload(TypedDict):
+    """Upload of the service."""
+
+    name: str
+    owner: str
+    """Id of the key that sent it."""
+    created_at: str
+    bytes: int
+    files: int
+    ids: NotRequired[list[str]]
+    """Ids of its scenarios."""
+    findings: NotRequired[list[UploadFinding]]
+    """Findings that do not prevent the upload (throng scenario check)."""
+
+
+JobField = Any
+
+
+class Mistake(TypedDict):
+    """Mistake of the service."""
+
+    pointer: str
+    found: str
+    expected: str
+    message: str
+    source: NotRequired[str]
+
+
+class Problem(TypedDict):
+    """A problem document (RFC 9457)."""
+
+    type: str
+    title: str
+    status: int
+    detail: str
+    errors: NotRequired[list[Mistake]]
+
+
+class KeyEnded(TypedDict):
+    """In the answer to its revocation: what the key had under way, which was cancelled."""
+
+    jobs: int
+    live_flights: int
+
+
+class Key(TypedDict):
+    """Key of the service."""
+
+    id: str
+    name: str
+    scope: Literal["read", "submit", "admin"]
+    max_jobs: int | None
+    """Maximum number of jobs that wait or run at once; null: any number."""
+    max_bytes: int | None
+    """Maximum disk space of all the key's jobs; null: any."""
+    max_priority: int
+    """Maximum priority of the key's jobs, from -100 to 100."""
+    created_at: str | None
+    revoked_at: str | None
+    """Time when the key was revoked; null: it is valid."""
+    expires_at: str | None
+    """Time from which on callers with the key get 401; null: never."""
+    links: dict[str, str]
+    ended: NotRequired[KeyEnded]
+    """In the answer to its revocation: what the key had under way, which was cancelled."""
+    key: NotRequired[str]
+    """The key itself, which callers send; only in the answer to its creation."""
+
+
+class KeyList(TypedDict):
+    """KeyList of the service."""
+
+    keys: list[Key]
+
+
+class WebhookLinks(TypedDict):
+    """WebhookLinks of the service."""
+
+    self: str
+    deliveries: str
+
+
+class Webhook(TypedDict):
+    """Webhook of the service."""
+
+    id: str
+    url: str
+    events: list[str]
+    enabled: bool
+    """Whether it is in use; it goes out of use after failing for a day."""
+    created_at: str | None
+    delivered_up_to: int
+    """Number of the last event that is settled."""
+    failures: int
+    """Number of failures in a row."""
+    failing_since: str | None
+    links: WebhookLinks
+    secret: NotRequired[str]
+    """Secret that signs deliveries; only in the answer to its creation."""
+
+
+class WebhookList(TypedDict):
+    """WebhookList of the service."""
+
+    webhooks: list[Webhook]
+
+
+class Delivery(TypedDict):
+    """Delivery of the service."""
+
+    event: int
+    """Number of the event; 0 for a ping."""
+    type: str
+    at: str | None
+    attempt: int
+    status: int | None
+    error: str | None
+    took_ms: int
+    succeeded: bool
+
+
+class DeliveryList(TypedDict):
+    """DeliveryList of the service."""
+
+    deliveries: list[Delivery]
+
+
+class Session(TypedDict):
+    """Session of the service."""
+
+    needs_key: bool
+    """Whether callers need a key."""
+    scope: str | None
+    """Scope of the caller: read, submit or admin; null without a valid key."""
+
+
 OPERATIONS = (
     ("POST", "/v1/jobs"),
     ("GET", "/v1/jobs"),
@@ -827,6 +834,7 @@ OPERATIONS = (
     ("POST", "/v1/jobs/{id}/retry"),
     ("POST", "/v1/jobs/{id}/clone"),
     ("GET", "/v1/jobs/{id}/events"),
+    ("GET", "/v1/jobs/{id}/plan"),
     ("GET", "/v1/jobs/{id}/logs"),
     ("GET", "/v1/jobs/{id}/logs/{name}"),
     ("GET", "/v1/jobs/{id}/previews"),
@@ -837,26 +845,16 @@ OPERATIONS = (
     ("GET", "/v1/jobs/{id}/files/{path}"),
     ("GET", "/v1/jobs/{id}/metrics"),
     ("GET", "/v1/jobs/{id}/report"),
-    ("GET", "/v1/jobs/{id}/plan"),
     ("GET", "/v1/jobs/{id}/runs/{n}/metrics"),
     ("GET", "/v1/jobs/{id}/runs/{n}/metrics.csv"),
     ("GET", "/v1/jobs/{id}/runs/{n}/trace"),
     ("GET", "/v1/jobs/{id}/runs/{n}/trajectories"),
-    ("GET", "/v1/events"),
     ("POST", "/v1/calibrations"),
     ("GET", "/v1/calibrations"),
     ("GET", "/v1/calibrations/{id}"),
     ("DELETE", "/v1/calibrations/{id}"),
     ("GET", "/v1/calibrations/{id}/{name}"),
     ("GET", "/v1/calibrations/{id}/images/{path}"),
-    ("POST", "/v1/live"),
-    ("GET", "/v1/live"),
-    ("GET", "/v1/live/{id}"),
-    ("DELETE", "/v1/live/{id}"),
-    ("GET", "/v1/live/{id}/stream"),
-    ("GET", "/v1/live/{id}/recording"),
-    ("POST", "/v1/live/{id}/commands"),
-    ("POST", "/v1/live/{id}/stop"),
     ("POST", "/v1/studies"),
     ("GET", "/v1/studies"),
     ("GET", "/v1/studies/{id}"),
@@ -867,10 +865,25 @@ OPERATIONS = (
     ("GET", "/v1/studies/{id}/events"),
     ("GET", "/v1/studies/{id}/report"),
     ("GET", "/v1/studies/{id}/files/{path}"),
-    ("GET", "/v1/scenarios"),
+    ("POST", "/v1/live"),
+    ("GET", "/v1/live"),
+    ("GET", "/v1/live/{id}"),
+    ("DELETE", "/v1/live/{id}"),
+    ("GET", "/v1/live/{id}/stream"),
+    ("GET", "/v1/live/{id}/recording"),
+    ("POST", "/v1/live/{id}/commands"),
+    ("POST", "/v1/live/{id}/stop"),
     ("POST", "/v1/scenarios"),
+    ("GET", "/v1/scenarios"),
     ("GET", "/v1/scenarios/{path}"),
     ("DELETE", "/v1/scenarios/{path}"),
+    ("GET", "/v1/people"),
+    ("GET", "/v1/airframes"),
+    ("GET", "/v1/policies"),
+    ("GET", "/v1/formats"),
+    ("GET", "/v1/schema"),
+    ("GET", "/v1/schemas"),
+    ("GET", "/v1/schemas/{name}"),
     ("POST", "/v1/keys"),
     ("GET", "/v1/keys"),
     ("DELETE", "/v1/keys/{id}"),
@@ -881,17 +894,11 @@ OPERATIONS = (
     ("DELETE", "/v1/webhooks/{id}"),
     ("GET", "/v1/webhooks/{id}/deliveries"),
     ("POST", "/v1/webhooks/{id}/ping"),
-    ("GET", "/v1/airframes"),
-    ("GET", "/v1/people"),
-    ("GET", "/v1/policies"),
-    ("GET", "/v1/formats"),
-    ("GET", "/v1/schema"),
-    ("GET", "/v1/schemas"),
-    ("GET", "/v1/schemas/{name}"),
-    ("GET", "/v1/access/submit"),
+    ("GET", "/v1/events"),
     ("POST", "/v1/session"),
     ("GET", "/v1/session"),
     ("DELETE", "/v1/session"),
+    ("GET", "/v1/access/submit"),
     ("POST", "/v1/service/drain"),
     ("GET", "/v1/version"),
     ("GET", "/openapi.json"),

@@ -1,5 +1,5 @@
-// The HTTP API, version 1: routes to the parts of the service. server/openapi.json describes them
-// for users.
+// The HTTP API, version 1: routes to the parts of the service. server/routes/ says what they take
+// and answer, and makes openapi.json of it.
 //
 // Errors are answered with a problem document (RFC 9457), whose "errors" list each mistake in a job
 // with its JSON pointer.
@@ -10,8 +10,8 @@
 #include "server/access/audit_log.h"
 #include "server/access/keys.h"
 #include "server/access/sessions.h"
-#include "server/api/routes.h"
 #include "server/api/service.h"
+#include "server/description/routes.h"
 #include "server/http/answer_budget.h"
 #include "server/http/http_meters.h"
 #include "server/http/http_server.h"
@@ -24,7 +24,7 @@ namespace throng::server {
 /// Requests of one key that are worked on at once, streams included; half of the server's threads.
 inline constexpr int kMaxRequestsOfKey = 256;
 
-/// All operations of the API.
+/// All operations of the API, resource by resource.
 std::span<const Route> routes();
 
 /// Serves the API on a port. Service, keys and webhooks must outlive this object.

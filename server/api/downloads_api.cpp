@@ -244,13 +244,12 @@ void send_file(const RequestContext& context, const Request& request, Response& 
 }
 
 void list_images_of_job(const RequestContext& context, const Request& request, Response& response) {
-  constexpr std::int64_t kMaxPage = 1000;
-  constexpr std::int64_t kUsualPage = 100;
   constexpr std::int64_t kMaxOffset = 1'000'000'000;
   const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
-  const ImageQuery query{request.get_param_value("run"), request.get_param_value("camera"),
-                         requested_number(request, "offset", 0, kMaxOffset, 0),
-                         requested_number(request, "limit", 1, kMaxPage, kUsualPage)};
+  const ImageQuery query{
+      request.get_param_value("run"), request.get_param_value("camera"),
+      requested_number(request, "offset", 0, kMaxOffset, 0),
+      requested_number(request, "limit", 1, kMaxImagesOfPage, kUsualImagesOfPage)};
   const auto manifest = context.datasets.manifest_of(dataset);
   const ImageList list = list_images(manifest->files, query);
   json images = json::array();

@@ -10,6 +10,10 @@
 
 namespace throng::server {
 
+/// Images of a dataset that are listed at once.
+inline constexpr int kMaxImagesOfPage = 1000;
+inline constexpr int kUsualImagesOfPage = 100;
+
 void send_archive(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 void send_manifest(const RequestContext& context, const httplib::Request& request,

@@ -24,7 +24,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr int kPage = 500;
 constexpr auto kBeat = 500ms;  // how often a stream looks for progress, and for its end
 constexpr auto kKeepAlive = 10s;
 constexpr auto kPreviewPause = 2s;
@@ -82,14 +81,14 @@ class EventStream {
       return true;
     }
     const bool may_go_on = job_.empty() || (row && is_active(row->state));
-    const auto events = queue_.events(job_, after_, kPage, 0ms);
+    const auto events = queue_.events(job_, after_, kMaxEventsOfPage, 0ms);
     if (!events.empty()) after_ = events.back().seq;
     std::string text;
     for (const jobs::EventRow& event : visible(events, queue_, caller_)) {
       text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
                           dump_text(event_json(event)));
     }
-    const bool is_past_complete = static_cast<int>(events.size()) < kPage;
+    const bool is_past_complete = static_cast<int>(events.size()) < kMaxEventsOfPage;
     if (is_past_complete && row && row->state == jobs::JobState::running) text += news_of(*row);
     const auto now = std::chrono::steady_clock::now();
     if (text.empty() && now - last_write_ > kKeepAlive) text = ": still here\n\n";
@@ -160,10 +159,10 @@ std::int64_t last_event_id(const Request& request) {
 
 void send_page(const RequestContext& context, const Request& request, Response& response,
                const std::string& job) {
-  constexpr std::int64_t kMaxWaitS = 60;
   const std::int64_t after = requested_number(request, "after", 0, kLastNumber, 0);
-  const auto limit = static_cast<int>(requested_number(request, "limit", 1, kPage, kPage));
-  const std::chrono::seconds timeout(requested_number(request, "wait_s", 0, kMaxWaitS, 0));
+  const auto limit =
+      static_cast<int>(requested_number(request, "limit", 1, kMaxEventsOfPage, kMaxEventsOfPage));
+  const std::chrono::seconds timeout(requested_number(request, "wait_s", 0, kMaxEventWaitS, 0));
   json list = json::array();
   const auto watch = timeout.count() > 0 ? watch_for(context.queue, context.caller) : nullptr;
   const std::vector<jobs::EventRow> events = context.queue.events(job, after, limit, timeout);

@@ -6,6 +6,9 @@
 
 namespace throng::server {
 
+inline constexpr int kMaxEventsOfPage = 500;
+inline constexpr int kMaxEventWaitS = 60;
+
 /// GET /v1/jobs/{id}/events and GET /v1/events. With "Accept: text/event-stream", sends Server-Sent
 /// Events after Last-Event-ID (or ?after=): past events in order, then new ones with the job's
 /// progress in between, until the job has ended. Otherwise sends at most ?limit= events after

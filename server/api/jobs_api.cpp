@@ -23,8 +23,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kMaxKeyLength = 200;
-
 /// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
 jobs::JobRow find_own(const RequestContext& context, const Request& request) {
   jobs::JobRow row = find_job(context, request);
@@ -49,9 +47,9 @@ std::vector<std::string> query_values(const Request& request, const char* name) 
 
 std::string idempotency_key(const Request& request) {
   std::string key = request.get_header_value("Idempotency-Key");
-  if (key.size() > kMaxKeyLength) {
-    throw HttpError{400,
-                    fmt::format("an Idempotency-Key has at most {} characters", kMaxKeyLength)};
+  if (key.size() > kMaxIdempotencyKeyLength) {
+    throw HttpError{
+        400, fmt::format("an Idempotency-Key has at most {} characters", kMaxIdempotencyKeyLength)};
   }
   return key;
 }

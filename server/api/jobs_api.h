@@ -6,6 +6,8 @@
 
 namespace throng::server {
 
+inline constexpr std::size_t kMaxIdempotencyKeyLength = 200;
+
 /// POST /v1/jobs?priority=&label=&label=, with the header Idempotency-Key; ?dry_run only checks.
 void submit_job(const RequestContext& context, const httplib::Request& request,
                 httplib::Response& response);

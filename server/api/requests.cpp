@@ -52,22 +52,15 @@ bool is_asked(const Request& request, const char* name) {
 }
 
 int requested_limit(const Request& request) {
-  constexpr int kUsual = 50;
-  constexpr int kMaxPageSize = 500;
-  return static_cast<int>(requested_number(request, "limit", 1, kMaxPageSize, kUsual));
+  return static_cast<int>(requested_number(request, "limit", 1, kMaxPageRows, kUsualPageRows));
 }
 
 void require_known_parameters(const Request& request, const Route& route) {
   if (request.target.find('?') == std::string::npos) return;  // a form's fields are no query
-  static const json kPaths = parse_json(embedded::kOpenApi, "openapi.json", {}).at("paths");
-  const std::string method = lower_case(to_string(route.method));
-  static const json kNone = json::array();
-  const json& operation = kPaths.at(route.path).at(method);
-  const auto parameters = operation.find("parameters");
   std::vector<std::string_view> known;
-  for (const json& parameter : parameters == operation.end() ? kNone : *parameters) {
-    const bool is_of_query = parameter.at("in") == "query";
-    if (is_of_query) known.push_back(parameter.at("name").get_ref<const std::string&>());
+  known.reserve(route.says.parameters.size());
+  for (const Parameter& parameter : route.says.parameters) {
+    if (parameter.location == Parameter::Location::query) known.emplace_back(parameter.name);
   }
   for (const auto& [name, value] : request.params) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;

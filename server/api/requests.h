@@ -10,14 +10,10 @@
 #include <string_view>
 
 #include "server/api/request_context.h"
-#include "server/api/routes.h"
 #include "server/catalog/viewer.h"
+#include "server/description/routes.h"
 #include "server/http/http_error.h"
 #include "server/http/http_fwd.h"
-
-namespace throng::embedded {
-extern const std::string_view kOpenApi;  ///< server/openapi.json
-}
 
 namespace throng::server {
 
@@ -33,13 +29,15 @@ std::int64_t requested_number(const httplib::Request& request, const char* name,
                               std::int64_t min_number, std::int64_t max_number, std::int64_t usual);
 /// Whether a flag of the query is set, without a value or as true. Throws HttpError 400.
 bool is_asked(const httplib::Request& request, const char* name);
+inline constexpr int kMaxPageRows = 500;
+inline constexpr int kUsualPageRows = 50;
 /// ?limit= of a list. Throws HttpError.
 int requested_limit(const httplib::Request& request);
 /// ?after= of a list. Throws HttpError.
 std::string cursor_from_request(const httplib::Request& request);
 
-/// Throws HttpError 400 for a parameter of the query that openapi.json does not have for the route:
-/// a dry run that is misspelled would be none.
+/// Throws HttpError 400 for a parameter of the query that the route does not have: a dry run that
+/// is misspelled would be none.
 void require_known_parameters(const httplib::Request& request, const Route& route);
 
 /// Throws HttpError 415 unless the body has a JSON media type. This also protects from requests by

@@ -19,9 +19,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kMaxLabels = 20;
-constexpr std::size_t kMaxLabelLength = 60;
-
 HttpError wrong_change(const std::string& pointer, const std::string& found,
                        const std::string& expected) {
   return {400, "the change is wrong", {{"", pointer, found, expected}}};

@@ -10,6 +10,9 @@
 
 namespace throng::server {
 
+inline constexpr std::size_t kMaxLabels = 20;
+inline constexpr std::size_t kMaxLabelLength = 60;
+
 /// Throws HttpError 400 for too many labels, or a label that is empty, too long or not printable.
 /// `pointer` is their JSON pointer.
 void check_labels(const std::vector<std::string>& labels, const std::string& pointer);

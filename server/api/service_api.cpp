@@ -9,6 +9,7 @@
 #include "server/api/requests.h"
 #include "server/api/session_api.h"
 #include "server/catalog/api_json.h"
+#include "server/description/openapi_text.h"
 #include "server/http/http.h"
 #include "spec/documents/published_schemas.h"
 #include "spec/job/spec.h"
@@ -77,7 +78,7 @@ void send_file_schema(const RequestContext&, const Request& request, Response& r
 }
 
 void send_openapi(const RequestContext&, const Request&, Response& response) {
-  response.set_content(std::string(embedded::kOpenApi), "application/json");
+  response.set_content(openapi_text(), "application/json");
 }
 
 void list_airframes(const RequestContext& context, const Request&, Response& response) {

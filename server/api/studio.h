@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "server/api/request_context.h"
-#include "server/api/routes.h"
+#include "server/description/routes.h"
 #include "server/http/http_fwd.h"
 #include "server/http/studio_file.h"
 

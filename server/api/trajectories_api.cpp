@@ -28,8 +28,6 @@ namespace {
 
 constexpr std::uint32_t kVersion = 1;
 constexpr double kMaxPositions = 2e6;  // 12 MB
-constexpr double kMaxTimeS = 1e6;
-constexpr double kMinEveryS = 0.001;
 constexpr std::uint16_t kAbsent = std::numeric_limits<std::uint16_t>::max();
 constexpr float kSteps = 65'000;  // of a coordinate
 constexpr float kMinStepM = 0.001F;

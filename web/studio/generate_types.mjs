@@ -1,12 +1,13 @@
-// Writes api/types.ts, the types of the service's answers, from server/openapi.json.
-// usage: node generate_types.mjs [--check]   --check writes nothing and exits with 1 if the file is not up to date
+// Writes api/types.ts, the types of the service's answers, from `throng schema openapi`.
+// usage: node generate_types.mjs THRONG [--check]   --check writes nothing and exits with 1 if the file is not up to date
+import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = path.join(here, "api/types.ts");
-const document = JSON.parse(readFileSync(path.join(here, "../../server/openapi.json"), "utf8"));
+const document = JSON.parse(execFileSync(process.argv[2], ["schema", "openapi"], { maxBuffer: 1 << 26 }));
 const kPlain = { string: "string", integer: "number", number: "number", boolean: "boolean", null: "null" };
 
 function typeOf(schema, indent) {
@@ -42,7 +43,7 @@ function members(schema, indent) {
   return `{\n${lines.join("")}${indent}}`;
 }
 
-const parts = ["// Made by web/studio/generate_types.mjs from server/openapi.json; do not edit.\n"];
+const parts = ["// Made by web/studio/generate_types.mjs from `throng schema openapi`; do not edit.\n"];
 for (const [name, schema] of Object.entries(document.components.schemas)) {
   if (schema.description) parts.push(`/** ${schema.description} */`);
   parts.push(schema.properties ? `export interface ${name} ${members(schema, "")}\n` : `export type ${name} = ${typeOf(schema, "")};\n`);
@@ -50,7 +51,7 @@ for (const [name, schema] of Object.entries(document.components.schemas)) {
 const text = parts.join("\n").replace(/\*\/\n\nexport/g, "*/\nexport");
 if (process.argv.includes("--check")) {
   if (!existsSync(target) || readFileSync(target, "utf8") !== text) {
-    console.error("web/studio/api/types.ts is not up to date: run node web/studio/generate_types.mjs");
+    console.error("web/studio/api/types.ts is not up to date: run node web/studio/generate_types.mjs THRONG");
     process.exit(1);
   }
 } else {

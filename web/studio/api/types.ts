@@ -1,4 +1,4 @@
-// Made by web/studio/generate_types.mjs from server/openapi.json; do not edit.
+// Made by web/studio/generate_types.mjs from `throng schema openapi`; do not edit.
 
 export interface Job {
   id: string;
@@ -146,7 +146,7 @@ export interface Event {
   seq: number;
   job: string;
   at: string;
-  type: "submitted" | "started" | "resumed" | "stage" | "succeeded" | "failed" | "cancelled" | "retried" | "changed" | "removed";
+  type: "submitted" | "stage" | "changed" | "removed" | "started" | "resumed" | "succeeded" | "partial" | "failed" | "cancelled" | "retried";
   data: Record<string, unknown>;
 }
 
@@ -388,6 +388,87 @@ export interface StudyValues {
   })[];
 }
 
+export interface LiveFlight {
+  id: string;
+  /** Name of the job. */
+  name: string;
+  state: "starting" | "flying" | "ended" | "failed";
+  /** Simulated time, s. */
+  time_s: number;
+  /** Number of streams that are being read. */
+  viewers: number;
+  drones: string[];
+  /** Whether it was begun with "record". */
+  recorded: boolean;
+  /** Result of a flight that has ended; lists leave it out. */
+  result?: LiveResult | null;
+  error: {
+    kind: string;
+    message: string;
+  } | null;
+  links: {
+    self: string;
+    stream: string;
+    /** Address of the recording once the flight has ended; null for a flight that is not recorded. */
+    recording: string | null;
+  };
+}
+
+export interface LiveResult {
+  duration_s: number;
+  steps: number;
+  /** SHA-256 of the flight's trace; the trace of the job's run000 has the same. */
+  trace_sha256: string;
+  drones: {
+    id: string;
+    /** The pilot log (docs/guidance.md). */
+    csv: string;
+  }[];
+  /** A job for POST /v1/jobs that flies the logs again, as set-points of the policy pilot_log. */
+  job: Record<string, unknown>;
+  warnings: string[];
+  /** How far the recording goes; null for a flight that was not recorded. */
+  recording: {
+    /** All messages before this simulated time are in the recording, s. */
+    complete_until_s: number;
+    /** Why the recording ended before the flight, such as a full disk; null if it did not. */
+    problem: string | null;
+    /** Size of the file. */
+    bytes: number;
+  } | null;
+}
+
+export interface LiveCommands {
+  /** Number that comes back with the states and images in which the commands are in force. */
+  sequence?: number;
+  paused?: boolean;
+  /** Simulated seconds per second; default at the start: 1. */
+  factor?: number;
+  /** Id of the drone whose camera is shown; default at the start: the first drone. */
+  view?: string;
+  drones?: {
+    id: string;
+    /** Velocity [ahead, to the left, up]. Drones fly at most 10 m/s over the ground and 3 m/s up or down. */
+    velocity_mps?: number[];
+    /** Rate of yaw, counter-clockwise; drones turn at most at 120. */
+    yaw_rate_deg_s?: number;
+    /** Point [x, y, z] in the world to fly to, after the waypoints if both are given. The drone stays there. */
+    position_m?: number[];
+    /** Points [x, y, z] in the world to fly to one after another; an empty list ends a flight to points. */
+    waypoints_m?: number[][];
+    /** Heading to turn to, counter-clockwise from +x. Without points, the drone turns where it is. */
+    yaw_deg?: number;
+    /** Speed on the way to points given with it; default: 5. */
+    speed_mps?: number;
+    /** Direction to turn the camera to: [pitch from -90 to 30 above the horizon, yaw from -180 to 180 to the left of the heading]. Gimbals turn at most at 60 degrees/s; a rigid camera has none. */
+    gimbal_deg?: number[];
+    /** Whether people may follow the drone. */
+    beacon?: boolean;
+    /** Whether the drone returns to its start, until it is steered again. */
+    return_home?: boolean;
+  }[];
+}
+
 export interface Scenario {
   id: string;
   name?: string;
@@ -410,7 +491,7 @@ export interface Scenario {
   /** Reason why the scenario cannot be used. */
   error?: string;
   /** Upload that it is from; null: it came with throng. */
-  uploaded?: null | Upload;
+  uploaded?: Upload | null;
 }
 
 export interface ScenarioList {
@@ -502,7 +583,10 @@ export interface Webhook {
   failing_since: string | null;
   /** Secret that signs deliveries; only in the answer to its creation. */
   secret?: string;
-  links: Record<string, string>;
+  links: {
+    self: string;
+    deliveries: string;
+  };
 }
 
 export interface WebhookList {
@@ -530,85 +614,4 @@ export interface Session {
   needs_key: boolean;
   /** Scope of the caller: read, submit or admin; null without a valid key. */
   scope: string | null;
-}
-
-export interface LiveFlight {
-  id: string;
-  /** Name of the job. */
-  name: string;
-  state: "starting" | "flying" | "ended" | "failed";
-  /** Simulated time, s. */
-  time_s: number;
-  /** Number of streams that are being read. */
-  viewers: number;
-  drones: string[];
-  /** Whether it was begun with "record". */
-  recorded: boolean;
-  /** Result of a flight that has ended; lists leave it out. */
-  result?: LiveResult | null;
-  error: {
-    kind: string;
-    message: string;
-  } | null;
-  links: {
-    self: string;
-    stream: string;
-    /** Address of the recording once the flight has ended; null for a flight that is not recorded. */
-    recording: string | null;
-  };
-}
-
-export interface LiveResult {
-  duration_s: number;
-  steps: number;
-  /** SHA-256 of the flight's trace; the trace of the job's run000 has the same. */
-  trace_sha256: string;
-  drones: {
-    id: string;
-    /** The pilot log (docs/guidance.md). */
-    csv: string;
-  }[];
-  /** A job for POST /v1/jobs that flies the logs again, as set-points of the policy pilot_log. */
-  job: Record<string, unknown>;
-  warnings: string[];
-  /** How far the recording goes; null for a flight that was not recorded. */
-  recording: {
-    /** All messages before this simulated time are in the recording, s. */
-    complete_until_s: number;
-    /** Why the recording ended before the flight, such as a full disk; null if it did not. */
-    problem: string | null;
-    /** Size of the file. */
-    bytes: number;
-  } | null;
-}
-
-export interface LiveCommands {
-  /** Number that comes back with the states and images in which the commands are in force. */
-  sequence?: number;
-  paused?: boolean;
-  /** Simulated seconds per second; default at the start: 1. */
-  factor?: number;
-  /** Id of the drone whose camera is shown; default at the start: the first drone. */
-  view?: string;
-  drones?: {
-    id: string;
-    /** Velocity [ahead, to the left, up]. Drones fly at most 10 m/s over the ground and 3 m/s up or down. */
-    velocity_mps?: number[];
-    /** Rate of yaw, counter-clockwise; drones turn at most at 120. */
-    yaw_rate_deg_s?: number;
-    /** Point [x, y, z] in the world to fly to, after the waypoints if both are given. The drone stays there. */
-    position_m?: number[];
-    /** Points [x, y, z] in the world to fly to one after another; an empty list ends a flight to points. */
-    waypoints_m?: number[][];
-    /** Heading to turn to, counter-clockwise from +x. Without points, the drone turns where it is. */
-    yaw_deg?: number;
-    /** Speed on the way to points given with it; default: 5. */
-    speed_mps?: number;
-    /** Direction to turn the camera to: [pitch from -90 to 30 above the horizon, yaw from -180 to 180 to the left of the heading]. Gimbals turn at most at 60 degrees/s; a rigid camera has none. */
-    gimbal_deg?: number[];
-    /** Whether people may follow the drone. */
-    beacon?: boolean;
-    /** Whether the drone returns to its start, until it is steered again. */
-    return_home?: boolean;
-  }[];
 }

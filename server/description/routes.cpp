@@ -1,4 +1,6 @@
-#include "server/api/routes.h"
+#include "server/description/routes.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -15,25 +17,28 @@ bool is_of_name(char c) {
 }
 bool is_any(char) { return true; }
 
-struct Parameter {
-  std::string_view name;  ///< with its braces
-  std::string_view pattern;
-  bool (*allows)(char);
-  bool is_rest;  ///< of the path, with slashes
-};
-constexpr std::array kParameters = {Parameter{"{id}", "([a-z0-9]+)", &is_small_or_digit, false},
-                                    Parameter{"{n}", "([0-9]+)", &is_digit, false},
-                                    Parameter{"{name}", "([A-Za-z0-9._-]+)", &is_of_name, false},
-                                    Parameter{"{path}", "(.+)", &is_any, true}};
+constexpr std::array kPathParameters = {
+    PathParameter{"id", "[a-z0-9]+", &is_small_or_digit, false},
+    PathParameter{"n", "[0-9]+", &is_digit, false},
+    PathParameter{"name", "[A-Za-z0-9._-]+", &is_of_name, false},
+    PathParameter{"path", ".+", &is_any, true}};
 
-const Parameter& parameter_at(std::string_view path, std::size_t brace) {
-  const auto* found = std::find_if(
-      kParameters.begin(), kParameters.end(),
-      [&](const Parameter& entry) { return path.substr(brace).starts_with(entry.name); });
-  return *found;
+/// The parameter whose braces begin at `brace`.
+const PathParameter& parameter_at(std::string_view path, std::size_t brace) {
+  const std::string_view name = path.substr(brace + 1, path.find('}', brace) - brace - 1);
+  return *std::find_if(kPathParameters.begin(), kPathParameters.end(),
+                       [&](const PathParameter& entry) { return entry.name == name; });
 }
 
 }  // namespace
+
+std::vector<PathParameter> path_parameters(std::string_view path) {
+  std::vector<PathParameter> all;
+  for (std::size_t i = path.find('{'); i != std::string_view::npos; i = path.find('{', i + 1)) {
+    all.push_back(parameter_at(path, i));
+  }
+  return all;
+}
 
 std::string_view to_string(Method method) {
   switch (method) {
@@ -57,9 +62,9 @@ std::string route_pattern(std::string_view path) {
       ++i;
       continue;
     }
-    const Parameter& parameter = parameter_at(path, i);
-    pattern += parameter.pattern;
-    i += parameter.name.size();
+    const PathParameter& parameter = parameter_at(path, i);
+    pattern += fmt::format("({})", parameter.pattern);
+    i += parameter.name.size() + 2;
   }
   return pattern;
 }
@@ -69,8 +74,8 @@ bool fits(std::string_view path, std::string_view requested) {
        brace = path.find('{')) {
     if (!requested.starts_with(path.substr(0, brace))) return false;
     requested.remove_prefix(brace);
-    const Parameter& parameter = parameter_at(path, brace);
-    path.remove_prefix(brace + parameter.name.size());
+    const PathParameter& parameter = parameter_at(path, brace);
+    path.remove_prefix(brace + parameter.name.size() + 2);
     const std::string_view value =
         parameter.is_rest ? requested : requested.substr(0, requested.find('/'));
     // A suffix of a parameter within its segment, such as ".csv", does not belong to it.

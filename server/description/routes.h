@@ -5,8 +5,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "server/access/keys.h"
+#include "server/description/operation.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
@@ -18,14 +20,27 @@ enum class Method { get, post, patch, remove };
 /// The HTTP method: "GET", "DELETE".
 std::string_view to_string(Method method);
 
+using Handler = void (*)(const RequestContext&, const httplib::Request&, httplib::Response&);
+
 /// One operation of the API. A parameter's name determines its syntax: {id} lower-case letters and
 /// digits, {n} digits, {name} letters, digits and ". _ -", {path} the rest of the path.
 struct Route {
   Method method;
   const char* path;
   Scope scope;  ///< min scope of the caller
-  void (*handler)(const RequestContext&, const httplib::Request&, httplib::Response&);
+  Handler handler;
+  Operation says = {};  ///< for openapi.json; empty for the page's files
 };
+
+/// A parameter in a path.
+struct PathParameter {
+  std::string_view name;
+  std::string_view pattern;  ///< of its values, a regular expression
+  bool (*allows)(char);
+  bool is_rest;  ///< of the path, with slashes
+};
+/// The parameters of a path, in their order.
+std::vector<PathParameter> path_parameters(std::string_view path);
 
 /// The path as a regular expression for the library; httplib::Request::matches holds the parameters
 /// from index 1 on.

@@ -1,4 +1,4 @@
-#include "server/api/routes.h"
+#include "server/description/routes.h"
 
 #include <gtest/gtest.h>
 

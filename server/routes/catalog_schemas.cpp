@@ -1,0 +1,56 @@
+#include "server/routes/resources.h"
+
+namespace throng::server {
+
+std::vector<NamedSchema> catalog_schemas() {
+  return {
+      {"Scenario",
+       object({{"id", "string"},
+               {"name?", "string"},
+               {"description?", "string"},
+               {"crowd_model?", "string?"},
+               {"ground_m?", "number[4]"},
+               {"exits?",
+                list(object({{"id", "string"}, {"width_m", "number"}, {"open", "boolean"}}))},
+               {"drones?", list(object({{"id", "string"},
+                                        {"start_m", "number[3]"},
+                                        {"yaw_deg", "number",
+                                         "Heading of the drone, counter-clockwise from +x."}}))},
+               {"buildings?", "integer"},
+               {"props?", "integer"},
+               {"error?", "string", "Reason why the scenario cannot be used."},
+               {"uploaded?", "Upload?", "Upload that it is from; null: it came with throng."}})},
+      {"ScenarioList",
+       object({{"scenarios", "Scenario[]"},
+               {"next", "string?",
+                "Where the next page begins: `?after=`. A page ends when it has 4 MiB."}})},
+      {"Upload", object({{"name", "string"},
+                         {"owner", "string", "Id of the key that sent it."},
+                         {"created_at", "string"},
+                         {"bytes", "integer"},
+                         {"files", "integer"},
+                         {"ids?", "string[]", "Ids of its scenarios."},
+                         {"findings?",
+                          list(object({{"pointer", "string"},
+                                       {"found", "string"},
+                                       {"expected", "string"},
+                                       {"message", "string"},
+                                       {"severity", words({"error", "warning"})},
+                                       {"remedy", "string"}})),
+                          "Findings that do not prevent the upload (throng scenario check)."}})},
+      {"JobField", "any", "The part of the job's schema that says how a job names one."},
+      {"Mistake", object({{"pointer", "string"},
+                          {"found", "string"},
+                          {"expected", "string"},
+                          {"message", "string"},
+                          {"source?", "string"}})},
+      {"Problem",
+       object({{"type", "string"},
+               {"title", "string"},
+               {"status", "integer"},
+               {"detail", "string"},
+               {"errors?", "Mistake[]"}}),
+       "A problem document (RFC 9457)."}};
+}
+
+}  // namespace throng::server

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "server/api/api.h"
+#include "server/description/openapi_text.h"
+#include "server/routes/resources.h"
+
+namespace throng::server {
+
+Route on_get(const char* path, Scope scope, Handler handler, Operation says) {
+  return {Method::get, path, scope, handler, std::move(says)};
+}
+
+Route on_post(const char* path, Scope scope, Handler handler, Operation says) {
+  return {Method::post, path, scope, handler, std::move(says)};
+}
+
+Route on_patch(const char* path, Scope scope, Handler handler, Operation says) {
+  return {Method::patch, path, scope, handler, std::move(says)};
+}
+
+Route on_delete(const char* path, Scope scope, Handler handler, Operation says) {
+  return {Method::remove, path, scope, handler, std::move(says)};
+}
+
+std::vector<Route> tagged(const char* tag, std::vector<Route> routes) {
+  for (Route& route : routes) route.says.tag = tag;
+  return routes;
+}
+
+std::span<const Route> routes() {
+  static const std::vector<Route> all = [] {
+    std::vector<Route> table;
+    for (const auto& resource :
+         {&job_routes, &result_routes, &calibration_routes, &study_routes, &live_routes,
+          &catalog_routes, &key_routes, &webhook_routes, &service_routes}) {
+      std::ranges::move(resource(), std::back_inserter(table));
+    }
+    return table;
+  }();
+  return all;
+}
+
+const std::string& openapi_text() {
+  static const std::string text = [] {
+    std::vector<NamedSchema> schemas;
+    for (const auto& resource :
+         {&job_schemas, &result_schemas, &calibration_schemas, &study_schemas, &live_schemas,
+          &catalog_schemas, &access_schemas}) {
+      std::ranges::move(resource(), std::back_inserter(schemas));
+    }
+    return openapi_document(routes(), schemas).dump(1) + "\n";
+  }();
+  return text;
+}
+
+}  // namespace throng::server
