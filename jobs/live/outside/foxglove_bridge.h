@@ -12,8 +12,8 @@
 
 #include "formats/recording/message_sink.h"
 #include "jobs/foxglove/server.h"
-#include "jobs/live/loop/control.h"
 #include "jobs/live/flight_topics.h"
+#include "jobs/live/loop/control.h"
 #include "jobs/live/outside/command_topics.h"
 
 namespace throng::live {
