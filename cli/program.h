@@ -6,7 +6,7 @@
 #include "jobs/pipeline/confined_work.h"
 #include "jobs/pipeline/worker.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming)
 class App;
 }
 

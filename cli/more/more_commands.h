@@ -3,7 +3,7 @@
 
 #include "cli/program.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming)
 class App;
 }
 
