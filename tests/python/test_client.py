@@ -78,14 +78,17 @@ class Proxy:
 
             threading.Thread(target=up, daemon=True).start()
             sent = 0
-            while data := server.recv(4096):
-                if self.cuts and self.limit is not None and sent + len(data) > self.limit:
-                    self.cuts -= 1
-                    client.sendall(data[: self.limit - sent])
-                    client.shutdown(socket.SHUT_RDWR)
-                    return
-                client.sendall(data)
-                sent += len(data)
+            try:
+                while data := server.recv(4096):
+                    if self.cuts and self.limit is not None and sent + len(data) > self.limit:
+                        self.cuts -= 1
+                        client.sendall(data[: self.limit - sent])
+                        return
+                    client.sendall(data)
+                    sent += len(data)
+            finally:
+                # close() alone sends nothing while the other thread waits for the client: it would wait for 300 s.
+                client.shutdown(socket.SHUT_RDWR)
 
 
 class WithService(unittest.TestCase):
