@@ -19,7 +19,7 @@
 #include "base/error.h"
 #include "base/files/resources.h"
 #include "jobs/queue/workers/executor.h"
-#include "server/api/api.h"
+#include "server/routes/api.h"
 
 namespace throng::server {
 namespace {

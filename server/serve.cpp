@@ -31,8 +31,8 @@
 #include "jobs/queue/executors.h"
 #include "server/access/first_key.h"
 #include "server/access/keys.h"
-#include "server/api/api.h"
 #include "server/api/service.h"
+#include "server/routes/api.h"
 #include "server/service_log.h"
 #include "server/webhooks/webhook_sender.h"
 

@@ -161,7 +161,7 @@ Checked checked(const world::Scenario& scenario, const RunSpec& spec,
   std::vector<DroneMission> missions = spec.drones;
   if (has_aims(spec)) {
     const auto places =
-        starting_places(scenario, spec, people.crowd->positions(), people.crowd->present());
+        places_of_persons(people.roles, people.crowd->positions(), people.crowd->present());
     aim_drones(scenario, places, spec.seed, missions, problems);
   }
   run.drones = plan_drones(scenario, missions, spec.duration_s, problems);

@@ -28,7 +28,6 @@
 #include "cli/shell/trace_file.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
-#include "sim/planning/aimed_start.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/job/scenario_mix.h"
 #include "world/drone_path.h"
@@ -95,8 +94,7 @@ void draw_plan(const PlanArguments& arguments) {
   if (is_job(arguments.name)) {
     const jobs::JobSpec job = jobs::in_scenario_of_run(read_job_file(arguments.name).spec(), 0);
     scenario = jobs::load_job_scenario(job, world::scenarios_folder());
-    const sim::RunSpec run = jobs::run_spec(job, 0);
-    paths = sim::planned_paths(*scenario, run, sim::people_to_aim_at(*scenario, run));
+    paths = sim::planned_paths(*scenario, jobs::run_spec(job, 0));
   } else {
     scenario = scenario_named(arguments.name);
   }

@@ -9,7 +9,7 @@
 #include "base/files/files.h"
 #include "base/text/suggest.h"
 #include "cli/shell/commands.h"
-#include "server/description/openapi_text.h"
+#include "server/routes/openapi_text.h"
 #include "spec/documents/published_schemas.h"
 
 namespace throng::cli {

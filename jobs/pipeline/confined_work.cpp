@@ -17,7 +17,6 @@
 #include "jobs/pipeline/checks/scenario_check.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
-#include "sim/planning/aimed_start.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/scenarios/scenario_summary.h"
@@ -64,8 +63,7 @@ json draw_scenario(const json& request) {
 json draw_job(const json& request) {
   const JobSpec job = in_scenario_of_run(read_resolved_job(text_at(request, "job"), "").spec(), 0);
   const world::Scenario scenario = load_job_scenario(job, text_at(request, "scenarios"));
-  const sim::RunSpec run = run_spec(job, 0);
-  const auto paths = sim::planned_paths(scenario, run, sim::people_to_aim_at(scenario, run));
+  const auto paths = sim::planned_paths(scenario, run_spec(job, 0));
   return {{"svg", drawing::to_svg(scenarios::draw_plan(scenario, kPlanPx, paths))}};
 }
 

@@ -15,8 +15,8 @@ using ConfinedWork = std::map<std::string, std::function<nlohmann::json(const nl
 /// Performs a request according to its member "task". "scenarios" and "files" are paths of folders.
 ///   unpack         unpacks the file "bundle" into the folder "unpacked" within "limits"
 ///   scenarios      checks the scenarios in "folder": CheckedScenarios
-///   job            resolves the job "job", which obeys the schema, with "scenarios": {"job",
-///   "load"} dry_run        checks the job "job" with "scenarios" (checks/job_check.h)
+///   job            resolves "job", which obeys the schema, with "scenarios": {"job", "load"}
+///   dry_run        checks "job" with "scenarios" (checks/job_check.h)
 ///   scenario_plan  draws the floor plan of the scenario "id" in "scenarios": {"svg"}
 ///   job_plan       draws that of the resolved job "job", with its drones' paths: {"svg"}
 ///   summaries      describes the scenarios "ids" in "scenarios": {"summaries": [...]}, each

@@ -9,7 +9,6 @@
 #include "server/api/requests.h"
 #include "server/api/session_api.h"
 #include "server/catalog/api_json.h"
-#include "server/description/openapi_text.h"
 #include "server/http/http.h"
 #include "spec/documents/published_schemas.h"
 #include "spec/job/spec.h"
@@ -75,10 +74,6 @@ void send_file_schema(const RequestContext&, const Request& request, Response& r
                                      fmt::join(jobs::schema_names(), ", "))};
   }
   response.set_content(schema, "application/schema+json");
-}
-
-void send_openapi(const RequestContext&, const Request&, Response& response) {
-  response.set_content(openapi_text(), "application/json");
 }
 
 void list_airframes(const RequestContext& context, const Request&, Response& response) {

@@ -26,8 +26,6 @@ void list_schemas(const RequestContext& context, const httplib::Request& request
                   httplib::Response& response);
 void send_file_schema(const RequestContext& context, const httplib::Request& request,
                       httplib::Response& response);
-void send_openapi(const RequestContext& context, const httplib::Request& request,
-                  httplib::Response& response);
 
 // Each list includes the part of the job's schema in which an entry is selected.
 void list_airframes(const RequestContext& context, const httplib::Request& request,

@@ -1,9 +1,11 @@
+#include "server/routes/route_table.h"
+
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "server/api/api.h"
-#include "server/description/openapi_text.h"
+#include "server/http/http.h"
+#include "server/routes/openapi_text.h"
 #include "server/routes/resources.h"
 
 namespace throng::server {
@@ -53,6 +55,11 @@ const std::string& openapi_text() {
     return openapi_document(routes(), schemas).dump(1) + "\n";
   }();
   return text;
+}
+
+void send_openapi(const RequestContext& /*context*/, const httplib::Request& /*request*/,
+                  httplib::Response& response) {
+  response.set_content(openapi_text(), "application/json");
 }
 
 }  // namespace throng::server

@@ -3,6 +3,7 @@
 #include "server/api/session_api.h"
 #include "server/routes/parameters.h"
 #include "server/routes/resources.h"
+#include "server/routes/route_table.h"
 
 namespace throng::server {
 

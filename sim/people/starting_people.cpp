@@ -7,10 +7,8 @@
 
 namespace throng::sim {
 
-namespace {
-
 // In a recording everybody is a person: the scenario's dangers are agents of its own crowd.
-std::vector<world::AgentRole> roles_at_start(const world::Scenario& scenario, const RunSpec& spec,
+std::vector<world::AgentRole> starting_roles(const world::Scenario& scenario, const RunSpec& spec,
                                              std::size_t agents, std::vector<Problem>& problems) {
   const std::vector<int> none;
   std::vector<world::AgentRole> roles =
@@ -25,14 +23,9 @@ std::vector<world::AgentRole> roles_at_start(const world::Scenario& scenario, co
   return roles;
 }
 
-}  // namespace
-
-std::vector<Eigen::Vector2d> starting_places(const world::Scenario& scenario, const RunSpec& spec,
-                                             std::span<const Eigen::Vector2f> positions,
-                                             std::span<const std::uint8_t> present) {
-  std::vector<Problem> left_out;
-  const std::vector<world::AgentRole> roles =
-      roles_at_start(scenario, spec, positions.size(), left_out);
+std::vector<Eigen::Vector2d> places_of_persons(const std::vector<world::AgentRole>& roles,
+                                               std::span<const Eigen::Vector2f> positions,
+                                               std::span<const std::uint8_t> present) {
   std::vector<Eigen::Vector2d> places;
   for (std::size_t i = 0; i < roles.size(); ++i) {
     if (roles[i] != world::AgentRole::person || present[i] == 0) continue;
@@ -52,7 +45,7 @@ StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& s
     people->prepare_to_step();
     starting.crowd = simulated(*std::move(people));
   }
-  starting.roles = roles_at_start(scenario, spec, starting.crowd->positions().size(), problems);
+  starting.roles = starting_roles(scenario, spec, starting.crowd->positions().size(), problems);
   for (std::size_t i = 0; i < starting.roles.size(); ++i) {
     starting.crowd->set_present(i, starting.roles[i] != world::AgentRole::absent);
   }

@@ -30,10 +30,13 @@ StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& s
                                std::vector<Problem>& problems,
                                std::optional<crowd::Simulation> people = std::nullopt);
 
-/// Positions (m) of the persons who take part in a run and are there at its start, in its crowd or
-/// recording. Leaves out what choose_roles() reports.
-std::vector<Eigen::Vector2d> starting_places(const world::Scenario& scenario, const RunSpec& spec,
-                                             std::span<const Eigen::Vector2f> positions,
-                                             std::span<const std::uint8_t> present);
+/// The roles of a run's agents. Adds the problems of choose_roles() to `problems`.
+std::vector<world::AgentRole> starting_roles(const world::Scenario& scenario, const RunSpec& spec,
+                                             std::size_t agents, std::vector<Problem>& problems);
+
+/// Positions (m) of the persons who are present.
+std::vector<Eigen::Vector2d> places_of_persons(const std::vector<world::AgentRole>& roles,
+                                               std::span<const Eigen::Vector2f> positions,
+                                               std::span<const std::uint8_t> present);
 
 }  // namespace throng::sim

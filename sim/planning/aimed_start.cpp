@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "base/compute/random.h"
 #include "base/geometry/angle.h"
@@ -142,18 +143,30 @@ bool has_aims(const RunSpec& run) {
   return std::any_of(run.drones.begin(), run.drones.end(), has_aim);
 }
 
+namespace {
+
+std::vector<Vector2d> places_at_start(const world::Scenario& scenario, const RunSpec& run,
+                                      std::span<const Eigen::Vector2f> positions,
+                                      std::span<const std::uint8_t> present) {
+  std::vector<Problem> of_people;  // the simulation reports them
+  return places_of_persons(starting_roles(scenario, run, positions.size(), of_people), positions,
+                           present);
+}
+
+}  // namespace
+
 std::vector<Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run) {
   if (!has_aims(run)) return {};
   if (!run.recorded) {
     return people_to_aim_at(scenario, run, load_people(scenario, run.seed, run.crowd));
   }
   const auto source = replayed(run.recorded, run.seed);
-  return starting_places(scenario, run, source->positions(), source->present());
+  return places_at_start(scenario, run, source->positions(), source->present());
 }
 
 std::vector<Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run,
                                        const crowd::Simulation& people) {
-  return starting_places(scenario, run, people.positions(), people.present());
+  return places_at_start(scenario, run, people.positions(), people.present());
 }
 
 }  // namespace throng::sim

@@ -54,6 +54,10 @@ std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, con
   return paths;
 }
 
+std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run) {
+  return planned_paths(scenario, run, people_to_aim_at(scenario, run));
+}
+
 std::vector<std::vector<PlannedPose>> planned_poses(const world::Scenario& scenario,
                                                     const RunSpec& run,
                                                     const std::vector<Eigen::Vector2d>& people,

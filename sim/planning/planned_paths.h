@@ -12,10 +12,11 @@ namespace throng::sim {
 
 /// The set-points of each drone's policy over the run's duration, as if the drone followed them
 /// exactly and its battery never ran out. The path of a policy that depends on people consists of
-/// the drone's start only. Drones aim at `people` (people_to_aim_at()). Throws InputError for
-/// missions that cannot be flown.
+/// the drone's start only. Drones aim at `people`, or else at people_to_aim_at(). Throws InputError
+/// for missions that cannot be flown.
 std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run,
                                             const std::vector<Eigen::Vector2d>& people);
+std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run);
 
 /// The set-point of a drone at a time.
 struct PlannedPose {

@@ -107,13 +107,6 @@ JobSpec read_job(json document, const std::string& source, std::vector<Problem>&
   return job;
 }
 
-JobSpec parse_job(std::string_view text, const std::string& source,
-                  std::vector<Problem>& problems) {
-  json document = parse_job_document(text, source);
-  check_job_schema(document, source);
-  return read_job(std::move(document), source, problems);
-}
-
 JobSpec parse_job(std::string_view text, const std::string& source) {
   return check_and_read_job(parse_job_document(text, source), source);
 }

@@ -28,11 +28,10 @@ void check_job_schema(const nlohmann::json& document, const std::string& source)
 JobSpec read_job(nlohmann::json document, const std::string& source,
                  std::vector<Problem>& problems);
 
-/// All of these. The first adds the mistakes that the schema does not detect to `problems`; the
-/// others throw InputError with all problems.
-JobSpec parse_job(std::string_view text, const std::string& source, std::vector<Problem>& problems);
-JobSpec parse_job(std::string_view text, const std::string& source);
+/// check_job_schema() and read_job() of a document, or of the one that a text is. Throw InputError
+/// with all problems.
 JobSpec check_and_read_job(nlohmann::json document, const std::string& source);
+JobSpec parse_job(std::string_view text, const std::string& source);
 
 /// The job as JSON, with all defaults that do not depend on the scenario filled in. parse_job()
 /// reads the same job from it.

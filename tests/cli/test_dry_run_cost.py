@@ -22,8 +22,8 @@ REPETITIONS = 4
 # 10 to 13 ms of each dry run on a slow machine that compiles meanwhile. Loading the crowd would take some 300 ms.
 MAX_CPU_S = 0.1
 MAX_MIB = 8  # that stay, after all of them
-# A dry run loads the people of this place once, without the mesh of their paths: 0.3 s of CPU, or 0.7 s on a machine that
-# compiles meanwhile. It was 2.9 s when each check loaded them with the mesh.
+# A dry run loads the people of this place once, without the mesh of their paths: 0.6 to 0.7 s of CPU on a slow machine
+# that compiles meanwhile. It was 2.9 s when each check loaded them with the mesh.
 MESHED_JOB = {"scenario": "stadium_exit/everyday"}
 MAX_CHILD_CPU_S = 2
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "server/api/api.h"
 #include "server/http/http.h"
+#include "server/routes/api.h"
 #include "tests/server/http_client.h"
 #include "tests/server/service_fixture.h"
 

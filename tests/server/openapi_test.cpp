@@ -10,6 +10,7 @@
 #include <valijson/validator.hpp>
 
 #include "base/files/files.h"
+#include "server/routes/route_table.h"
 #include "tests/server/api_fixture.h"
 #include "tests/server/bundles.h"
 

@@ -35,7 +35,7 @@ DroneMission scout_with(const std::string& policy) {
 TEST(PlannedPaths, PassEveryWaypointInOrder) {
   DroneMission mission = scout_with("waypoints");
   mission.waypoints = {{10, 0, 12}, {10, 10, 12}, {10, 10, 18}};
-  const auto paths = planned_paths(meadow(), run_with_mission(mission, 60), {});
+  const auto paths = planned_paths(meadow(), run_with_mission(mission, 60));
   ASSERT_EQ(paths.size(), 1U);
   EXPECT_EQ(paths[0].id, "scout");
   EXPECT_EQ(paths[0].points.front(), Eigen::Vector3d(-10, 0, 12));
@@ -51,7 +51,7 @@ TEST(PlannedPaths, EndWithTheRun) {
   DroneMission mission = scout_with("waypoints");
   mission.waypoints = {{30, 0, 12}};
   mission.speed_mps = 2;
-  const auto path = planned_paths(meadow(), run_with_mission(mission, 10), {}).front();
+  const auto path = planned_paths(meadow(), run_with_mission(mission, 10)).front();
   EXPECT_GT(path.points.back().x(), 5);
   EXPECT_LE(path.points.back().x(), 10) << "20 m in 10 s at the most";
 }
@@ -61,7 +61,7 @@ TEST(PlannedPaths, GoRoundAnOrbit) {
   mission.guidance.center = Eigen::Vector2d(0, 0);
   mission.guidance.radius_m = 10;
   mission.speed_mps = 4;
-  const auto path = planned_paths(meadow(), run_with_mission(mission, 40), {}).front();
+  const auto path = planned_paths(meadow(), run_with_mission(mission, 40)).front();
   double max_x = 0;
   for (const Eigen::Vector3d& point : path.points) {
     EXPECT_NEAR(point.head<2>().norm(), 10, 0.5);
@@ -73,14 +73,13 @@ TEST(PlannedPaths, GoRoundAnOrbit) {
 
 TEST(PlannedPaths, AreUnknownForPoliciesThatFollowPeople) {
   for (const char* policy : {"balance", "follow_density", "zigzag", "signage"}) {
-    const auto path = planned_paths(meadow(), run_with_mission(scout_with(policy), 40), {}).front();
+    const auto path = planned_paths(meadow(), run_with_mission(scout_with(policy), 40)).front();
     EXPECT_EQ(path.points.size(), 1U) << policy;
   }
 }
 
 TEST(PlannedPaths, RefuseImpossibleFlights) {
-  EXPECT_THROW(planned_paths(meadow(), run_with_mission(scout_with("teleport"), 10), {}),
-               InputError);
+  EXPECT_THROW(planned_paths(meadow(), run_with_mission(scout_with("teleport"), 10)), InputError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "server/api/api.h"
+#include "server/routes/api.h"
 
 #include <gmock/gmock.h>
 

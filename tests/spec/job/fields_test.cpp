@@ -116,9 +116,10 @@ TEST(JobFields, DrawingKeepsThePilotLog) {
 TEST(JobFields, PlacesThatAJobDoesNotHaveAreRefused) {
   // A drone's camera holds its distributions itself: without the drone there is nothing to hold it.
   std::vector<Problem> problems;
-  parse_job(R"({"scenario": "yard",
+  read_job(parse_job_document(R"({"scenario": "yard",
                 "randomize": {"drones.0.camera.pitch_deg": {"choice": [-40, -50]}}})",
-            "", problems);
+                              ""),
+           "", problems);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/randomize/drones.0.camera.pitch_deg");
   // Drones and starts that the scenario lends are not known yet.

@@ -1,4 +1,4 @@
-#include "server/api/api.h"
+#include "server/routes/api.h"
 
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
@@ -32,6 +32,7 @@
 #include "server/catalog/api_json.h"
 #include "server/http/file_answer.h"
 #include "server/http/http.h"
+#include "server/routes/route_table.h"
 
 namespace throng::server {
 

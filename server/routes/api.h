@@ -1,5 +1,4 @@
-// The HTTP API, version 1: routes to the parts of the service. server/routes/ says what they take
-// and answer, and makes openapi.json of it.
+// The HTTP API, version 1: routes to the parts of the service.
 //
 // Errors are answered with a problem document (RFC 9457), whose "errors" list each mistake in a job
 // with its JSON pointer.
@@ -23,9 +22,6 @@ namespace throng::server {
 
 /// Requests of one key that are worked on at once, streams included; half of the server's threads.
 inline constexpr int kMaxRequestsOfKey = 256;
-
-/// All operations of the API, resource by resource.
-std::span<const Route> routes();
 
 /// Serves the API on a port. Service, keys and webhooks must outlive this object.
 class Api {
