@@ -8,7 +8,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/JoinSources.cmake")
 # of the time that -O2 takes to compile); all others have -O1. Loops of a kernel (throng_kernels) have -O3. With sanitizers those that
 # compute have -O1.
 set(THRONG_OPTIMIZED_MODULES base crowd camera sim skinning render annotate)
-set(THRONG_SERVING_MODULES spec jobs/queue jobs/bucket jobs/foxglove jobs/live jobs/study server cli/common cli/import cli cli/more)
+set(THRONG_SERVING_MODULES spec jobs/queue jobs/bucket jobs/foxglove jobs/live/loop jobs/live jobs/study server cli/common cli/import cli cli/more)
 # These are optimized with sanitizers too: their tests look at every pixel.
 set(THRONG_PIXEL_MODULES annotate formats formats/validate)
 # The modules that the fuzz targets (tests/fuzz) cover.

@@ -162,11 +162,14 @@ step_asan() {
   THRONG_TEST_PROGRAM="$root/build/release/cli/throng" asan_ctest asan --repeat-waits -j3 -L '^sanitized$'
 }
 
-# The crowd's tests are those that compare numbers of threads. None of these is ever repeated.
+# The crowd's tests are those that compare numbers of threads. Live flights have their threads in jobs/live/loop: the rest of
+# jobs/live, and jobs/engine, which begins none, link the simulation and the renderer, which take minutes to compile. None of
+# these is ever repeated.
 step_tsan() {
   say "building and testing (ThreadSanitizer): the concurrent parts"
-  build tsan test_base test_crowd_determinism test_jobs_queue test_server
-  TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" run_ctest tsan tsan -j2 -L '^(base|crowd_determinism|jobs_queue|server)$'
+  local tests=(base bucket crowd_determinism jobs_foxglove jobs_live_loop jobs_queue server)
+  build tsan "${tests[@]/#/test_}"
+  TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" run_ctest tsan tsan -j2 -L "^($(IFS='|' && echo "${tests[*]}"))\$"
 }
 
 # Some seconds of new inputs each on top of the corpus (a minute in the step long), with the sanitizers' build. Findings stay in build/fuzz; make them

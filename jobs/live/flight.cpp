@@ -94,4 +94,11 @@ json Flight::finish() {
           {"warnings", std::move(texts)}};
 }
 
+std::vector<std::string> drone_ids(const Flight& flight) {
+  std::vector<std::string> ids;
+  ids.reserve(flight.drones().size());
+  for (const sim::PlannedDrone& drone : flight.drones()) ids.push_back(drone.mission.id);
+  return ids;
+}
+
 }  // namespace throng::live

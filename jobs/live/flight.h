@@ -20,10 +20,6 @@
 
 namespace throng::live {
 
-/// Max duration of a flight in simulated seconds, so that the job with its recorded set-points
-/// stays small enough to be submitted.
-inline constexpr double kMaxFlightS = 600;
-
 inline constexpr const char* kTraceFile = "trace.h5";
 
 /// Use from one thread at a time.
@@ -66,5 +62,8 @@ class Flight {
   std::unique_ptr<sim::SteppedRun> run_;
   std::unique_ptr<sim::RemotePilots> pilots_;
 };
+
+/// The ids of the flight's drones.
+std::vector<std::string> drone_ids(const Flight& flight);
 
 }  // namespace throng::live

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "jobs/live/moment.h"
+#include "jobs/live/loop/moment.h"
 #include "jobs/live/people_in_motion.h"
 #include "render/renderer.h"
 #include "skinning/population.h"

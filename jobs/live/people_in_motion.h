@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "jobs/live/moment.h"
+#include "jobs/live/loop/moment.h"
 #include "render/animator.h"
 #include "skinning/animate/motion.h"
 #include "skinning/appearance.h"

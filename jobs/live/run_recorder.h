@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "jobs/live/moment.h"
+#include "jobs/live/loop/moment.h"
 #include "sim/run_observer.h"
 #include "world/trace.h"
 

@@ -150,7 +150,7 @@ class LiveFlight:
         speed_mps: float | None = None,
         sequence: int | None = None,
     ) -> None:
-        """Commands a drone: velocity ahead, to the left and up, to be repeated at least once a second; or points
+        """Commands a drone: velocity ahead, to the left and up, to be repeated at least once per simulated second; or points
         of the world to fly to, and the heading there; gimbal_deg turns the camera (pitch above the horizon, yaw to the
         left of the heading).
         """

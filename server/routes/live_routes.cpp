@@ -45,9 +45,12 @@ std::vector<Route> live_routes() {
            "/v1/live/{id}/commands", Scope::submit, &command_live,
            {.summary = "Fly the drones",
             .help =
-                "Fields that are left out keep their values. One second after the last commands, "
-                "drones hover; those that fly to points or to their start go on. A velocity other "
-                "than 0 ends that.",
+                "Fields that are left out keep their values. A velocity and a yaw rate hold for "
+                "one "
+                "simulated second after they were commanded, then the drone hovers, whatever other "
+                "drones are commanded; drones that fly to points or to their start go on. A "
+                "velocity "
+                "other than 0 ends that.",
             .body = json_body("LiveCommands"),
             .answers = {done("The flight has received the commands.")},
             .problems = {409}}),

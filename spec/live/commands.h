@@ -12,6 +12,10 @@
 
 namespace throng::live {
 
+/// Max duration of a flight in simulated seconds, so that the job with its recorded set-points
+/// stays small enough to be submitted.
+inline constexpr double kMaxFlightS = 600;
+
 /// A drone that can be commanded.
 struct FlownDrone {
   std::string id;

@@ -13,8 +13,8 @@
 #include "formats/recording/message_sink.h"
 #include "jobs/foxglove/server.h"
 #include "jobs/live/flight_topics.h"
+#include "jobs/live/loop/control.h"
 #include "jobs/live/outside/command_topics.h"
-#include "jobs/live/outside/control.h"
 
 namespace throng::live {
 

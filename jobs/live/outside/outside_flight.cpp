@@ -13,9 +13,9 @@
 #include "jobs/live/flight.h"
 #include "jobs/live/flight_recording.h"
 #include "jobs/live/flight_topics.h"
+#include "jobs/live/loop/control.h"
+#include "jobs/live/loop/flight_loop.h"
 #include "jobs/live/onboard_camera.h"
-#include "jobs/live/outside/camera_thread.h"
-#include "jobs/live/outside/control.h"
 #include "jobs/live/outside/foxglove_bridge.h"
 #include "jobs/live/outside/kept_flight.h"
 #include "jobs/live/people_in_motion.h"
@@ -49,12 +49,6 @@ struct Stage {
   Flight flight;
 };
 
-std::vector<std::string> drone_ids(const Flight& flight) {
-  std::vector<std::string> ids;
-  for (const sim::PlannedDrone& drone : flight.drones()) ids.push_back(drone.mission.id);
-  return ids;
-}
-
 /// Parameters that nobody can set.
 std::vector<foxglove::Parameter> facts(const Stage& stage) {
   const world::TraceHeader& header = stage.flight.header();
@@ -85,7 +79,8 @@ class OutsideFlight {
         population_(skinning::load_population(skinning::population_folder())),
         first_folder_(options.output.empty() ? 0 : first_free_number(options.output)),
         stage_(make_stage(jobs::in_scenario_of_run(job, 0), 0)),
-        control_(drone_ids(stage_->flight), {options.factor, options.paused, options.duration_s},
+        control_(drone_ids(stage_->flight),
+                 {.factor = options.factor, .paused = options.paused, .max_s = options.duration_s},
                  stop) {
     control_.begin(stage_->flight.moment(0));
     foxglove::ServerOptions server;
@@ -129,12 +124,16 @@ class OutsideFlight {
                         });
     topics.add(*flight.moment(0), {}, {});
     std::unique_ptr<Stage> next;
-    {
-      const std::unique_ptr<CameraThread> camera = start_camera(topics, recording.has_value());
-      next = fly(topics);
-    }
+    FlightParts parts;
+    parts.step = [&](const Wishes& wishes) { return step(wishes, topics); };
+    parts.reset = [&] {
+      next = begin_anew();
+      return next != nullptr;
+    };
+    if (options_.has_camera) parts.images = images(topics, recording.has_value());
+    const bool is_reset = fly(control_, parts);
     end_stage(recording ? &*recording : nullptr, file);
-    if (!next) return false;
+    if (!is_reset) return false;
     stage_ = std::move(next);
     ++flights_;
     control_.begin(stage_->flight.moment(0));
@@ -144,40 +143,35 @@ class OutsideFlight {
     return true;
   }
 
-  std::unique_ptr<CameraThread> start_camera(FlightTopics& topics, bool is_recorded) {
-    if (!options_.has_camera) return nullptr;
-    ImageSinks sinks;
-    sinks.is_wanted = [this, is_recorded](std::size_t drone) {
+  std::shared_ptr<const Moment> step(const Wishes& wishes, FlightTopics& topics) {
+    Flight& flight = stage_->flight;
+    std::shared_ptr<const Moment> moment = flight.step(wishes.commands, wishes.sequence);
+    topics.add(*moment, wishes.commands, flight.take_events());
+    news_.on_step(moment->time_s, control_.reached_factor());
+    return moment;
+  }
+
+  FlightImages images(FlightTopics& topics, bool is_recorded) {
+    FlightImages images;
+    images.begin = [this]() -> DrawImage {
+      const Flight& flight = stage_->flight;
+      const auto camera = std::make_shared<OnboardCamera>(
+          stage_->job, stage_->scenario, population_, flight.header(), flight.drones());
+      return [camera](const Moment& moment, std::size_t drone, double time_s) {
+        return camera->image(moment, drone, time_s);
+      };
+    };
+    images.is_wanted = [this, is_recorded](std::size_t drone) {
       return bridge_->wants_images(drone) || (is_recorded && control_.wishes().view == drone);
     };
-    sinks.take = [&topics](const Moment& moment, std::size_t drone, double time_s,
-                           const std::string& jpeg) {
-      topics.add_image(moment, drone, time_s, jpeg);
+    images.take = [&topics](const FlightImage& image) {
+      topics.add_image(*image.moment, image.drone, image.time_s, image.jpeg);
     };
-    sinks.fail = [this](const std::string& problem) {
+    images.fail = [this](const std::string& problem) {
       fmt::print(stderr, "throng: no more images: {}\n", problem);
       bridge_->tell(foxglove::Level::error, "no more images: " + problem);
     };
-    return std::make_unique<CameraThread>(stage_->job, stage_->scenario, population_,
-                                          stage_->flight, control_, std::move(sinks));
-  }
-
-  /// Returns the flight that follows a reset; null at the end.
-  std::unique_ptr<Stage> fly(FlightTopics& topics) {
-    Flight& flight = stage_->flight;
-    while (true) {
-      const Turn turn = control_.wait_for_turn();
-      if (turn == Turn::end) return nullptr;
-      if (turn == Turn::reset) {
-        if (std::unique_ptr<Stage> next = begin_anew()) return next;
-        continue;
-      }
-      const Wishes wishes = control_.in_force();
-      const std::shared_ptr<const Moment> moment = flight.step(wishes.commands, wishes.sequence);
-      topics.add(*moment, wishes.commands, flight.take_events());
-      control_.done(moment);
-      news_.on_step(moment->time_s, control_.reached_factor());
-    }
+    return images;
   }
 
   /// The flight after a reset; null if the job cannot be flown with that seed.

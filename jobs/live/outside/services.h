@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "jobs/foxglove/server.h"
-#include "jobs/live/outside/control.h"
+#include "jobs/live/loop/control.h"
 
 namespace throng::live {
 

@@ -15,11 +15,13 @@ std::string progress_line(const TaskProgress& progress) {
   return line.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+json to_json(const WorkerError& error) {
+  return {{"kind", error.kind}, {"message", error.message}, {"problems", error.problems}};
+}
+
 std::string error_line(const WorkerError& error) {
-  const json body = {
-      {"kind", error.kind}, {"message", error.message}, {"problems", error.problems}};
   // File names and messages of libraries may hold any bytes.
-  return json{{"error", body}}.dump(-1, ' ', false, json::error_handler_t::replace);
+  return json{{"error", to_json(error)}}.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 std::string sign_of_life_line() { return "{}"; }

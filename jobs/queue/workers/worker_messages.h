@@ -1,6 +1,7 @@
 // Messages of a worker to its supervisor: one JSON object per line of its stdout.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct WorkerMessage {
   std::optional<TaskProgress> progress;
   std::optional<WorkerError> error;
 };
+
+/// {"kind", "message", "problems"}.
+nlohmann::json to_json(const WorkerError& error);
 
 /// Format one message as a line without line break; always valid UTF-8.
 std::string progress_line(const TaskProgress& progress);

@@ -5,7 +5,7 @@ import { type Controls, kRest, type Sticks } from "./controls";
 import { type CameraImage, type FlightEvent, type Hello, type Message, messagesOf, type World } from "./messages";
 
 const kSendMs = 50;
-const kRepeatMs = 400; ///< drones whose pilot says nothing for a second hover
+const kRepeatMs = 400; ///< of the flight: drones whose pilot says nothing for a second of it hover
 const kRetryMs = 1000;
 const kKeptDelays = 9;
 
@@ -157,7 +157,7 @@ export class Connection {
     const now = performance.now();
     const aim = this.turnCamera(hello, sticks, now);
     const isNew = aim !== null || !isEqual(sticks, this.last) || Object.keys(this.queued).length > 0;
-    const isDue = now - this.lastSent > kRepeatMs && !isEqual(sticks, kRest);
+    const isDue = now - this.lastSent > kRepeatMs / Math.max(1, this.world?.factor ?? 1) && !isEqual(sticks, kRest);
     if (this.isSending || (!isNew && !isDue)) return;
     const sequence = ++this.sequence;
     this.sentAt.set(sequence, now);

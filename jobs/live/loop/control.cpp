@@ -1,4 +1,4 @@
-#include "jobs/live/outside/control.h"
+#include "jobs/live/loop/control.h"
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +19,8 @@ Control::Control(std::vector<std::string> drones, const Pace& pace, std::stop_to
     : drones_(std::move(drones)),
       max_s_(pace.max_s),
       stop_(std::move(stop)),
-      commanded_s_(drones_.size(), kNever) {
+      commanded_s_(drones_.size(), kNever),
+      is_watched_(pace.is_watched) {
   wishes_.commands.resize(drones_.size());
   wishes_.factor = pace.factor;
   wishes_.paused = pace.paused;
@@ -54,9 +55,26 @@ void Control::reset(std::optional<std::uint64_t> seed, Answer answer) {
   changed_.notify_all();
 }
 
+void Control::watch(bool is_watched) {
+  const std::lock_guard lock(mutex_);
+  is_watched_ = is_watched;
+  changed_.notify_all();
+}
+
+bool Control::is_watched() const {
+  const std::lock_guard lock(mutex_);
+  return is_watched_;
+}
+
 void Control::end() {
   const std::lock_guard lock(mutex_);
   ends_ = true;
+  changed_.notify_all();
+}
+
+void Control::fail(std::exception_ptr problem) {
+  const std::lock_guard lock(mutex_);
+  problem_ = std::move(problem);
   changed_.notify_all();
 }
 
@@ -72,7 +90,7 @@ double Control::time_s() const {
 
 double Control::reached_factor() const {
   const std::lock_guard lock(mutex_);
-  return clock_.reached_factor(moment_->dt_s).value_or(0);
+  return clock_.reached_factor(moment_->dt_s).value_or(wishes_.factor);
 }
 
 void Control::begin(std::shared_ptr<const Moment> moment) {
@@ -80,6 +98,7 @@ void Control::begin(std::shared_ptr<const Moment> moment) {
   wishes_.commands.assign(drones_.size(), {});
   commanded_s_.assign(drones_.size(), kNever);
   moment_ = std::move(moment);
+  is_at_rest_ = false;
   clock_ = StepClock();
   clock_.rest();
 }
@@ -87,20 +106,21 @@ void Control::begin(std::shared_ptr<const Moment> moment) {
 Turn Control::wait_for_turn() {
   std::unique_lock lock(mutex_);
   while (true) {
+    if (problem_) std::rethrow_exception(problem_);
     if (should_end()) return Turn::end;
     if (reset_) return Turn::reset;
     if (moment_->time_s + moment_->dt_s > max_s_ + world::kTimeSlackS) return Turn::end;
-    const bool is_asked = steps_ < goal_;
-    if (is_asked || (!wishes_.paused && wishes_.factor == 0)) return Turn::step;
-    if (wishes_.paused) {
+    if (steps_ < goal_ || (!rests() && wishes_.factor == 0)) return Turn::step;
+    if (rests()) {
+      if (!std::exchange(is_at_rest_, true)) return Turn::rest;
       changed_.wait(lock, stop_,
-                    [this] { return !wishes_.paused || steps_ < goal_ || reset_ || ends_; });
+                    [this] { return !rests() || steps_ < goal_ || reset_ || should_end(); });
       clock_.rest();
       continue;
     }
     if (StepClock::Clock::now() >= clock_.next()) return Turn::step;
     changed_.wait_until(lock, stop_, clock_.next(), [this] {
-      return wishes_.paused || wishes_.factor == 0 || reset_ || ends_;
+      return rests() || wishes_.factor == 0 || reset_ || should_end();
     });
   }
 }
@@ -123,6 +143,7 @@ void Control::done(std::shared_ptr<const Moment> moment) {
     moment_ = std::move(moment);
     time_s = moment_->time_s;
     ++steps_;
+    is_at_rest_ = false;
     clock_.done(moment_->dt_s, wishes_.factor);
     const auto first =
         std::stable_partition(waiting_.begin(), waiting_.end(),
@@ -156,8 +177,7 @@ void Control::refuse_all(const std::string& problem) {
 
 Control::Shown Control::shown() const {
   const std::lock_guard lock(mutex_);
-  const bool rests = wishes_.paused || wishes_.factor == 0;
-  if (rests) return {moment_, moment_->time_s};
+  if (rests() || wishes_.factor == 0) return {moment_, moment_->time_s};
   return {moment_, clock_.shown_time_s(moment_->time_s, moment_->dt_s)};
 }
 

@@ -1,8 +1,9 @@
-// Requests to a flight that is flown from outside, and the time of its next step.
+// Requests to a flight, and the time of its next step.
 #pragma once
 
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -11,23 +12,26 @@
 #include <string>
 #include <vector>
 
-#include "jobs/live/flight.h"
-#include "jobs/live/step_clock.h"
-#include "jobs/live/wishes.h"
+#include "jobs/live/loop/moment.h"
+#include "jobs/live/loop/step_clock.h"
+#include "jobs/live/loop/wishes.h"
 #include "spec/live/commands.h"
 
 namespace throng::live {
 
-/// Velocities and yaw rates hold for this much simulated time after they were commanded.
+/// A drone's velocity and yaw rate hold for this much simulated time after they were commanded:
+/// it goes as far without its pilot whatever the pace of the flight, and others' commands do not
+/// keep it going.
 inline constexpr double kSilenceS = 1;
 
-/// The next action of a flight.
-enum class Turn { step, reset, end };
+/// The next action of a flight. Rest: time stands still from now on.
+enum class Turn { step, rest, reset, end };
 
 /// The pace of a flight.
 struct Pace {
   double factor = 1;  ///< simulated seconds per second; 0: as fast as it can
   bool paused = false;
+  bool is_watched = true;      ///< time stands still while nobody looks on
   double max_s = kMaxFlightS;  ///< the flight ends at this simulated time
 };
 
@@ -44,7 +48,10 @@ class Control {
   };
 
   /// `drones` are their ids. A request by `stop` ends the flight.
-  Control(std::vector<std::string> drones, const Pace& pace, std::stop_token stop);
+  Control(std::vector<std::string> drones, const Pace& pace, std::stop_token stop = {});
+
+  /// Ids of the drones.
+  const std::vector<std::string>& drones() const { return drones_; }
 
   // For clients.
 
@@ -54,10 +61,15 @@ class Control {
   void step(std::int64_t steps, Answer answer);
   /// Throws InputError if a reset is under way.
   void reset(std::optional<std::uint64_t> seed, Answer answer);
+  /// Says whether somebody looks on.
+  void watch(bool is_watched);
+  bool is_watched() const;
   void end();
+  /// Ends the flight by an exception, which wait_for_turn() throws.
+  void fail(std::exception_ptr problem);
   Wishes wishes() const;
   double time_s() const;
-  /// Simulated time per time, lately; 0 while it is paused.
+  /// Simulated time per time, lately; that which is asked for after a rest.
   double reached_factor() const;
 
   // For the thread that flies.
@@ -90,7 +102,9 @@ class Control {
     Answer answer;
   };
 
-  bool should_end() const { return ends_ || stop_.stop_requested(); }
+  // With the mutex held.
+  bool should_end() const { return ends_ || problem_ || stop_.stop_requested(); }
+  bool rests() const { return wishes_.paused || !is_watched_; }
 
   const std::vector<std::string> drones_;
   const double max_s_;
@@ -104,7 +118,10 @@ class Control {
   std::uint64_t goal_ = 0;   ///< steps up to this one are simulated although it is paused
   std::vector<Waiting> waiting_;
   std::optional<Reset> reset_;
+  bool is_watched_;
+  bool is_at_rest_ = false;  ///< wait_for_turn() has said so since the last step
   bool ends_ = false;
+  std::exception_ptr problem_;
   StepClock clock_;
 };
 

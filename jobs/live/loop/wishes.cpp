@@ -1,4 +1,4 @@
-#include "jobs/live/wishes.h"
+#include "jobs/live/loop/wishes.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "jobs/live/step_clock.h"
+#include "jobs/live/loop/step_clock.h"
 
 namespace throng::live {
 

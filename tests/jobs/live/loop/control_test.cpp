@@ -1,32 +1,19 @@
 // Turns of a flight from outside, and the commands that hold.
-#include "jobs/live/outside/control.h"
+#include "jobs/live/loop/control.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "tests/jobs/live/loop/moments.h"
 
 namespace throng::live {
 namespace {
-
-constexpr double kDtS = 0.1;
-
-std::shared_ptr<const Moment> moment(int step) {
-  auto moment = std::make_shared<Moment>();
-  moment->time_s = step * kDtS;
-  moment->dt_s = kDtS;
-  return moment;
-}
-
-Commands read(const char* text) {
-  return commands_from_json(nlohmann::json::parse(text), {{"d1"}, {"d2"}});
-}
 
 /// A paused flight of two drones that ends after two seconds.
 class ControlTest : public ::testing::Test {
@@ -61,6 +48,17 @@ TEST_F(ControlTest, VelocitiesHoldForASecondOfTheFlight) {
   EXPECT_TRUE(control_.in_force().commands[1].beacon);
   control_.begin(moment(0));
   EXPECT_FALSE(control_.in_force().commands[1].beacon) << "another flight";
+}
+
+TEST_F(ControlTest, APilotKeepsNoOtherDroneGoing) {
+  control_.command(read(R"({"drones": [{"id": "d1", "velocity_mps": [2, 0, 0]}]})"));
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(control_.in_force().commands[0].velocity_mps.x(), 2);
+    fly(1);
+    control_.command(read(R"({"drones": [{"id": "d2", "velocity_mps": [1, 0, 0]}]})"));
+  }
+  EXPECT_EQ(control_.in_force().commands[0].velocity_mps.x(), 0);
+  EXPECT_EQ(control_.in_force().commands[1].velocity_mps.x(), 1);
 }
 
 TEST_F(ControlTest, RoutesNeedNoRepetition) {

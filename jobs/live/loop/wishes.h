@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/remote/remote_pilots.h"
 #include "spec/live/commands.h"
+#include "spec/sim/remote_command.h"
 
 namespace throng::live {
 
