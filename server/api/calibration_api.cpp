@@ -11,9 +11,15 @@
 #include "base/files/files.h"
 #include "base/files/untrusted_folders.h"
 #include "base/json/json_text.h"
+#include "server/access/keys.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
+#include "server/catalog/calibrations.h"
+#include "server/catalog/service_folders.h"
+#include "server/http/answer_budget.h"
 #include "server/http/http.h"
+#include "server/jobs/housekeeping.h"
+#include "server/jobs/job_queue.h"
 #include "spec/calibration/request_files.h"
 
 namespace throng::server {
@@ -73,63 +79,65 @@ Sent sent_as_json(const Request& request) {
 
 }  // namespace
 
-void submit_calibration(const RequestContext& context, const Request& request, Response& response) {
+void submit_calibration(Calibrations& calibrations, Housekeeping& housekeeping,
+                        const Caller& caller, const Request& request, Response& response) {
   const std::string header = request.get_header_value("Content-Type");
   const std::string type = header.substr(0, header.find(';'));
   if (type != "application/json" && type != "multipart/form-data") {
     throw HttpError{415, "a calibration is sent as multipart/form-data or application/json"};
   }
   const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
-  const jobs::JobRow row = context.calibrations.submit(
-      sent.request, sent.files,
-      {context.caller.key_id, context.caller.max_active, context.caller.max_bytes});
+  const jobs::JobRow row = calibrations.submit(
+      sent.request, sent.files, {caller.key_id, caller.max_active, caller.max_bytes});
   response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
-  write_json(response, 201, calibration_json(row, context.housekeeping.retention()));
+  write_json(response, 201, calibration_json(row, housekeeping.retention()));
 }
 
-void list_calibrations(const RequestContext& context, const Request& request, Response& response) {
+void list_calibrations(JobQueue& queue, Housekeeping& housekeeping, AnswerBudget& answers,
+                       const Caller& caller, const Request& request, Response& response) {
   static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
   const jobs::JobFilter filter{.kind = jobs::JobKind::calibration,
                                .after = cursor_from_request(request),
                                .limit = requested_limit(request),
-                               .visible_to = viewer_key(context.caller)};
-  send_rows(context, response, "calibrations", filter,
-            [&](const jobs::JobRow& row) {
-              return calibration_json(row, context.housekeeping.retention());
-            },
-            {{"schema", kSchema}});
+                               .visible_to = viewer_key(caller)};
+  send_rows(
+      queue, answers, response, "calibrations", filter,
+      [&](const jobs::JobRow& row) { return calibration_json(row, housekeeping.retention()); },
+      {{"schema", kSchema}});
 }
 
-void send_calibration(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(context, request, jobs::JobKind::calibration);
-  json value = calibration_json(row, context.housekeeping.retention());
+void send_calibration(JobQueue& queue, Housekeeping& housekeeping, const ServiceFolders& folders,
+                      const Caller& caller, const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(queue, caller, request, jobs::JobKind::calibration);
+  json value = calibration_json(row, housekeeping.retention());
   if (row.state == jobs::JobState::succeeded) {
-    value["camera"] = parse_own_json(
-        read_file(context.folders.calibration_folder(row.id) / calibrate::kCameraName),
-        calibrate::kCameraName);
+    value["camera"] =
+        parse_own_json(read_file(folders.calibration_folder(row.id) / calibrate::kCameraName),
+                       calibrate::kCameraName);
   }
   write_json(response, 200, value);
 }
 
-void remove_calibration(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(context, request, jobs::JobKind::calibration);
-  require_own(context, row);
-  if (!context.housekeeping.remove(row.id)) {
+void remove_calibration(JobQueue& queue, Housekeeping& housekeeping, const Caller& caller,
+                        const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(queue, caller, request, jobs::JobKind::calibration);
+  require_own(caller, row);
+  if (!housekeeping.remove(row.id)) {
     throw HttpError{404, "already removed"};
   }
   response.status = 204;
 }
 
-void send_calibration_result(const RequestContext& context, const Request& request,
-                             Response& response) {
-  const jobs::JobRow row = find_row(context, request, jobs::JobKind::calibration);
+void send_calibration_result(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                             const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(queue, caller, request, jobs::JobKind::calibration);
   const std::string name = request.matches[2];
   const auto* result = std::find_if(kResults.begin(), kResults.end(),
                                     [&](const Result& entry) { return name == entry.name; });
   if (result == kResults.end()) {
     throw HttpError{404, fmt::format("a calibration has no \"{}\"", name)};
   }
-  const std::filesystem::path file = context.folders.calibration_folder(row.id) / result->file;
+  const std::filesystem::path file = folders.calibration_folder(row.id) / result->file;
   const bool is_early = name == "points" && std::filesystem::exists(file);
   if (row.state != jobs::JobState::succeeded && !is_early) {
     throw HttpError{409, fmt::format("the calibration is {}; this is there once it has succeeded",
@@ -141,12 +149,12 @@ void send_calibration_result(const RequestContext& context, const Request& reque
   response.set_content(read_file(file), result->type);
 }
 
-void send_calibration_image(const RequestContext& context, const Request& request,
-                            Response& response) {
-  const jobs::JobRow row = find_row(context, request, jobs::JobKind::calibration);
+void send_calibration_image(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                            const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(queue, caller, request, jobs::JobKind::calibration);
   const std::string name = request.matches[2];
   const json images = parse_own_json(row.spec_json, "the request").value("images", json::array());
-  const std::filesystem::path file = context.folders.calibration_folder(row.id) / "files" / name;
+  const std::filesystem::path file = folders.calibration_folder(row.id) / "files" / name;
   if (std::find(images.begin(), images.end(), json(name)) == images.end() ||
       std::filesystem::path(name).filename() != name || !exists_without_links(file)) {
     throw HttpError{404, "the calibration has no image of this name"};

@@ -1,7 +1,7 @@
 // Routes of calibrations: /v1/calibrations. A calibration is queued and run like a job.
 #pragma once
 
-#include "server/api/request_context.h"
+#include "server/api/service_parts.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
@@ -10,19 +10,22 @@ namespace throng::server {
 
 /// Accepts multipart/form-data (a part "request" with JSON, and one part per file with its file
 /// name), or JSON whose "files" map names to texts.
-void submit_calibration(const RequestContext& context, const httplib::Request& request,
+void submit_calibration(Calibrations& calibrations, Housekeeping& housekeeping,
+                        const Caller& caller, const httplib::Request& request,
                         httplib::Response& response);
-void list_calibrations(const RequestContext& context, const httplib::Request& request,
+void list_calibrations(JobQueue& queue, Housekeeping& housekeeping, AnswerBudget& answers,
+                       const Caller& caller, const httplib::Request& request,
                        httplib::Response& response);
-void send_calibration(const RequestContext& context, const httplib::Request& request,
+void send_calibration(JobQueue& queue, Housekeeping& housekeeping, const ServiceFolders& folders,
+                      const Caller& caller, const httplib::Request& request,
                       httplib::Response& response);
-void remove_calibration(const RequestContext& context, const httplib::Request& request,
-                        httplib::Response& response);
+void remove_calibration(JobQueue& queue, Housekeeping& housekeeping, const Caller& caller,
+                        const httplib::Request& request, httplib::Response& response);
 /// Sends one of the results camera, opencv, ros, residuals and points.
-void send_calibration_result(const RequestContext& context, const httplib::Request& request,
-                             httplib::Response& response);
+void send_calibration_result(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                             const httplib::Request& request, httplib::Response& response);
 /// Sends an image of a board as it was submitted.
-void send_calibration_image(const RequestContext& context, const httplib::Request& request,
-                            httplib::Response& response);
+void send_calibration_image(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                            const httplib::Request& request, httplib::Response& response);
 
 }  // namespace throng::server

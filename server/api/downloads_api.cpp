@@ -21,10 +21,15 @@
 #include "jobs/queue/dataset/folder.h"
 #include "jobs/queue/dataset/manifest.h"
 #include "jobs/queue/trace_seal.h"
+#include "server/access/keys.h"
 #include "server/api/requests.h"
+#include "server/catalog/service_folders.h"
 #include "server/http/file_answer.h"
 #include "server/http/http.h"
+#include "server/jobs/datasets.h"
 #include "server/jobs/image_list.h"
+#include "server/jobs/job_queue.h"
+#include "server/jobs/report_maker.h"
 #include "spec/estimates/task_memory.h"
 #include "spec/job/plan.h"
 
@@ -37,11 +42,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-jobs::JobRow find_succeeded(const RequestContext& context, const Request& request) {
-  jobs::JobRow row = find_job(context, request);
+jobs::JobRow find_succeeded(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                            const Request& request) {
+  jobs::JobRow row = find_job(queue, caller, request);
   // One that could only not be published has its dataset, too.
-  const bool is_complete =
-      !is_active(row.state) && fs::exists(context.folders.dataset_folder(row.id));
+  const bool is_complete = !is_active(row.state) && fs::exists(folders.dataset_folder(row.id));
   if (!has_dataset(row.state) && !is_complete) {
     throw HttpError{409, fmt::format("the job is {}; this is there once it has succeeded",
                                      to_string(row.state))};
@@ -52,14 +57,16 @@ jobs::JobRow find_succeeded(const RequestContext& context, const Request& reques
 /// A file of one run: of the dataset, or before that is complete of the run's own figures, which
 /// are there once it was measured, whatever becomes of the others. 404 when there is no such run or
 /// the job did not ask for it.
-void send_run_file(const RequestContext& context, const Request& request, Response& response,
-                   const char* folder, const char* suffix, const char* type) {
-  const jobs::JobRow row = find_job(context, request);
+void send_run_file(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                   const Request& request, Response& response, const char* folder,
+                   const char* suffix, const char* type) {
+  const jobs::JobRow row = find_job(queue, caller, request);
   const bool complete = row.state == jobs::JobState::succeeded;
   const int run = requested_run(request, row);
-  const fs::path root = complete ? context.folders.dataset_folder(row.id)
-                                 : jobs::JobFolder(context.folders.job_folder(row.id))
-                                       .output_of({jobs::Task::Kind::measure, run});
+  const fs::path root =
+      complete
+          ? folders.dataset_folder(row.id)
+          : jobs::JobFolder(folders.job_folder(row.id)).output_of({jobs::Task::Kind::measure, run});
   const fs::path file = root / folder / (jobs::run_name(run) + suffix);
   if (exists_without_links(file)) return response.set_content(read_file(file), type);
   if (!complete && !fs::exists(root)) {
@@ -182,12 +189,13 @@ int requested_run(const Request& request, const jobs::JobRow& row) {
   return run;
 }
 
-void send_archive(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_succeeded(context, request);
-  const fs::path dataset = context.folders.dataset_folder(row.id);
+void send_archive(JobQueue& queue, Datasets& datasets, const ServiceFolders& folders,
+                  const Caller& caller, const Request& request, Response& response) {
+  const jobs::JobRow row = find_succeeded(queue, folders, caller, request);
+  const fs::path dataset = folders.dataset_folder(row.id);
   const std::string name = slug(row.name);
   const jobs::ArchiveFormat format = requested_format(request);
-  const auto archive = context.datasets.archive_of(
+  const auto archive = datasets.archive_of(
       dataset, name, format,
       requested_selection(request, dataset, parse_own_json(row.spec_json, "the job")));
   if (archive->is_empty()) {
@@ -196,7 +204,7 @@ void send_archive(const RequestContext& context, const Request& request, Respons
   // The manifest holds the hash of every file; what was chosen of them is in the query.
   const std::string chosen =
       request.target.substr(std::min(request.target.find('?'), request.target.size()));
-  const std::string manifest = context.datasets.manifest_of(dataset)->itself.sha256;
+  const std::string manifest = datasets.manifest_of(dataset)->itself.sha256;
   const std::string etag =
       fmt::format("\"{}\"", chosen.empty() ? manifest : sha256_hex(manifest + chosen));
   if (is_current(request, response, etag)) return;
@@ -221,16 +229,20 @@ void send_archive(const RequestContext& context, const Request& request, Respons
       });
 }
 
-void send_manifest(const RequestContext& context, const Request& request, Response& response) {
-  const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
+void send_manifest(JobQueue& queue, Datasets& datasets, const ServiceFolders& folders,
+                   const Caller& caller, const Request& request, Response& response) {
+  const fs::path dataset =
+      folders.dataset_folder(find_succeeded(queue, folders, caller, request).id);
   answer_with_file(request, response, dataset / jobs::kManifestName, "application/json",
-                   fmt::format("\"{}\"", context.datasets.manifest_of(dataset)->itself.sha256));
+                   fmt::format("\"{}\"", datasets.manifest_of(dataset)->itself.sha256));
 }
 
-void send_file(const RequestContext& context, const Request& request, Response& response) {
-  const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
+void send_file(JobQueue& queue, Datasets& datasets, const ServiceFolders& folders,
+               const Caller& caller, const Request& request, Response& response) {
+  const fs::path dataset =
+      folders.dataset_folder(find_succeeded(queue, folders, caller, request).id);
   const std::string wanted = request.matches[2];
-  const auto manifest = context.datasets.manifest_of(dataset);
+  const auto manifest = datasets.manifest_of(dataset);
   const std::vector<jobs::FileEntry>& files = manifest->files;
   // Files of the manifest are in the dataset: no path leads out of it.
   const auto file =
@@ -243,14 +255,16 @@ void send_file(const RequestContext& context, const Request& request, Response& 
                    fmt::format("\"{}\"", file->sha256));
 }
 
-void list_images_of_job(const RequestContext& context, const Request& request, Response& response) {
+void list_images_of_job(JobQueue& queue, Datasets& datasets, const ServiceFolders& folders,
+                        const Caller& caller, const Request& request, Response& response) {
   constexpr std::int64_t kMaxOffset = 1'000'000'000;
-  const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
+  const fs::path dataset =
+      folders.dataset_folder(find_succeeded(queue, folders, caller, request).id);
   const ImageQuery query{
       request.get_param_value("run"), request.get_param_value("camera"),
       requested_number(request, "offset", 0, kMaxOffset, 0),
       requested_number(request, "limit", 1, kMaxImagesOfPage, kUsualImagesOfPage)};
-  const auto manifest = context.datasets.manifest_of(dataset);
+  const auto manifest = datasets.manifest_of(dataset);
   const ImageList list = list_images(manifest->files, query);
   json images = json::array();
   for (const ImageFile& image : list.images) {
@@ -275,49 +289,54 @@ void list_images_of_job(const RequestContext& context, const Request& request, R
              {{"images", std::move(images)}, {"total", list.total}, {"runs", std::move(runs)}});
 }
 
-void send_metrics(const RequestContext& context, const Request& request, Response& response) {
-  const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
+void send_metrics(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                  const Request& request, Response& response) {
+  const fs::path dataset =
+      folders.dataset_folder(find_succeeded(queue, folders, caller, request).id);
   response.set_content(read_file(dataset / "metrics.json"), "application/json");
 }
 
-void send_run_metrics(const RequestContext& context, const Request& request, Response& response) {
-  send_run_file(context, request, response, "metrics", ".json", "application/json");
+void send_run_metrics(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                      const Request& request, Response& response) {
+  send_run_file(queue, folders, caller, request, response, "metrics", ".json", "application/json");
 }
 
-fs::path trace_file(const RequestContext& context, const jobs::JobRow& row, int run) {
-  fs::path trace = jobs::JobFolder(context.folders.job_folder(row.id))
-                       .output_of({jobs::Task::Kind::simulate, run});
+fs::path trace_file(const ServiceFolders& folders, const jobs::JobRow& row, int run) {
+  fs::path trace =
+      jobs::JobFolder(folders.job_folder(row.id)).output_of({jobs::Task::Kind::simulate, run});
   if (exists_without_links(trace)) return trace;
   throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
                                    to_string(row.state), run)};
 }
 
-void send_run_trace(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(context, request);
+void send_run_trace(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                    const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(queue, caller, request);
   const int run = requested_run(request, row);
-  const fs::path trace = trace_file(context, row, run);
+  const fs::path trace = trace_file(folders, row, run);
   response.set_header("Content-Disposition", fmt::format("attachment; filename=\"{}_{}.h5\"",
                                                          slug(row.name), jobs::run_name(run)));
   answer_with_file(request, response, trace, "application/x-hdf5",
                    fmt::format("\"{}\"", jobs::sealed_hash(trace)));
 }
 
-void send_run_metrics_csv(const RequestContext& context, const Request& request,
-                          Response& response) {
-  send_run_file(context, request, response, "exits", ".csv", "text/csv");
+void send_run_metrics_csv(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                          const Request& request, Response& response) {
+  send_run_file(queue, folders, caller, request, response, "exits", ".csv", "text/csv");
 }
 
-void send_report(const RequestContext& context, const Request& request, Response& response) {
+void send_report(JobQueue& queue, ReportMaker& reports, const ServiceFolders& folders,
+                 const Caller& caller, const Request& request, Response& response) {
   // Shorter than a proxy's patience, and than what is left to a service that ends.
   constexpr auto kPatience = std::chrono::seconds(5);
-  const jobs::JobRow row = find_succeeded(context, request);
-  const std::optional<fs::path> file = context.reports.report_of(
-      context.folders.job_folder(row.id),
-      {.owner = row.owner,
-       .job = row.id,
-       .priority = [priority = row.priority] { return priority; },
-       .memory_mib = [](const jobs::Task&) { return jobs::kReportMemoryMib; }},
-      kPatience);
+  const jobs::JobRow row = find_succeeded(queue, folders, caller, request);
+  const std::optional<fs::path> file =
+      reports.report_of(folders.job_folder(row.id),
+                        {.owner = row.owner,
+                         .job = row.id,
+                         .priority = [priority = row.priority] { return priority; },
+                         .memory_mib = [](const jobs::Task&) { return jobs::kReportMemoryMib; }},
+                        kPatience);
   if (!file) {
     response.set_header("Retry-After", "2");
     return write_json(response, 202, {{"status", "the report is being made"}});
@@ -326,9 +345,10 @@ void send_report(const RequestContext& context, const Request& request, Response
                    fmt::format("\"{}\"", sha256_hex_of_file(*file)));
 }
 
-void list_logs(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(context, request);
-  const fs::path folder = context.folders.job_folder(row.id) / "logs";
+void list_logs(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+               const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(queue, caller, request);
+  const fs::path folder = folders.job_folder(row.id) / "logs";
   std::vector<fs::path> files = files_below(folder);
   std::sort(files.begin(), files.end());
   json logs = json::array();
@@ -343,10 +363,11 @@ void list_logs(const RequestContext& context, const Request& request, Response& 
   write_json(response, 200, {{"logs", std::move(logs)}});
 }
 
-void send_log(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(context, request);
+void send_log(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+              const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(queue, caller, request);
   const std::string name = request.matches[2];
-  const fs::path file = context.folders.job_folder(row.id) / "logs" / name;
+  const fs::path file = folders.job_folder(row.id) / "logs" / name;
   std::error_code ignored;  // e.g. the name is too long for a file
   if (name == ".." || !fs::is_regular_file(file, ignored) || !exists_without_links(file)) {
     throw HttpError{404, fmt::format("the job has no log {}", name)};
@@ -367,21 +388,23 @@ std::string newest_preview(const fs::path& job_folder) {
   return newest;
 }
 
-void list_previews(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(context, request);
+void list_previews(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                   const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(queue, caller, request);
   json previews = json::array();
-  for (const Preview& preview : list_previews(context.folders.job_folder(row.id))) {
+  for (const Preview& preview : list_previews(folders.job_folder(row.id))) {
     const std::string href = fmt::format("/v1/jobs/{}/previews/{}", row.id, preview.name);
     previews.push_back({{"name", preview.name}, {"href", href}, {"clean", href + "?clean"}});
   }
   write_json(response, 200, {{"previews", std::move(previews)}});
 }
 
-void send_preview(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(context, request);
+void send_preview(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                  const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(queue, caller, request);
   const std::string wanted = request.matches[2];
   const bool clean = is_asked(request, "clean");
-  for (const Preview& preview : list_previews(context.folders.job_folder(row.id))) {
+  for (const Preview& preview : list_previews(folders.job_folder(row.id))) {
     if (preview.name != wanted) continue;
     const fs::path& file = clean ? preview.clean : preview.drawn;
     return answer_with_growing_file(request, response, file, media_type(file));

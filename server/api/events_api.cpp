@@ -10,10 +10,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "server/access/keys.h"
 #include "server/api/downloads_api.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
+#include "server/catalog/service_folders.h"
 #include "server/http/http.h"
+#include "server/jobs/job_queue.h"
 
 namespace throng::server {
 
@@ -157,33 +160,34 @@ std::int64_t last_event_id(const Request& request) {
   return number;
 }
 
-void send_page(const RequestContext& context, const Request& request, Response& response,
-               const std::string& job) {
+void send_page(JobQueue& queue, Keys& keys, const Caller& caller, const Request& request,
+               Response& response, const std::string& job) {
   const std::int64_t after = requested_number(request, "after", 0, kLastNumber, 0);
   const auto limit =
       static_cast<int>(requested_number(request, "limit", 1, kMaxEventsOfPage, kMaxEventsOfPage));
   const std::chrono::seconds timeout(requested_number(request, "wait_s", 0, kMaxEventWaitS, 0));
   json list = json::array();
-  const auto watch = timeout.count() > 0 ? watch_for(context.queue, context.caller) : nullptr;
-  const std::vector<jobs::EventRow> events = context.queue.events(job, after, limit, timeout);
+  const auto watch = timeout.count() > 0 ? watch_for(queue, caller) : nullptr;
+  const std::vector<jobs::EventRow> events = queue.events(job, after, limit, timeout);
   const std::int64_t next = events.empty() ? after : events.back().seq;
-  if (!context.keys.is_valid(context.caller)) {
+  if (!keys.is_valid(caller)) {
     throw HttpError{401, "this key is not known, or was revoked"};
   }
-  for (const jobs::EventRow& event : visible(events, context.queue, context.caller)) {
+  for (const jobs::EventRow& event : visible(events, queue, caller)) {
     list.push_back(event_json(event));
   }
   write_json(response, 200, {{"events", std::move(list)}, {"next", next}});
 }
 
 /// Sends the events of the job or study with this id; "" for all.
-void send_job_events(const RequestContext& context, const Request& request, Response& response,
-                     const std::string& job, const std::filesystem::path& folder) {
+void send_job_events(JobQueue& queue, Keys& keys, const Caller& caller, const Request& request,
+                     Response& response, const std::string& job,
+                     const std::filesystem::path& folder) {
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
-    return send_page(context, request, response, job);
+    return send_page(queue, keys, caller, request, response, job);
   }
-  const auto stream = std::make_shared<EventStream>(context.queue, context.keys, context.caller,
-                                                    job, last_event_id(request), folder);
+  const auto stream =
+      std::make_shared<EventStream>(queue, keys, caller, job, last_event_id(request), folder);
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
   response.set_chunked_content_provider(
@@ -193,15 +197,18 @@ void send_job_events(const RequestContext& context, const Request& request, Resp
 
 }  // namespace
 
-void send_events(const RequestContext& context, const Request& request, Response& response) {
-  if (request.matches.size() < 2) return send_job_events(context, request, response, "", {});
-  const std::string id = find_job(context, request).id;
-  send_job_events(context, request, response, id, context.folders.job_folder(id));
+void send_events(JobQueue& queue, const ServiceFolders& folders, Keys& keys, const Caller& caller,
+                 const Request& request, Response& response) {
+  if (request.matches.size() < 2)
+    return send_job_events(queue, keys, caller, request, response, "", {});
+  const std::string id = find_job(queue, caller, request).id;
+  send_job_events(queue, keys, caller, request, response, id, folders.job_folder(id));
 }
 
-void send_study_events(const RequestContext& context, const Request& request, Response& response) {
-  send_job_events(context, request, response, find_row(context, request, jobs::JobKind::study).id,
-                  {});
+void send_study_events(JobQueue& queue, Keys& keys, const Caller& caller, const Request& request,
+                       Response& response) {
+  send_job_events(queue, keys, caller, request, response,
+                  find_row(queue, caller, request, jobs::JobKind::study).id, {});
 }
 
 }  // namespace throng::server

@@ -9,9 +9,11 @@
 
 #include "base/json/json_integer.h"
 #include "server/access/expiry.h"
+#include "server/access/keys.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
 #include "server/http/http.h"
+#include "server/jobs/revoked_keys.h"
 
 namespace throng::server {
 
@@ -38,8 +40,8 @@ json key_json(const KeyRow& key) {
           {"links", {{"self", "/v1/keys/" + key.id}}}};
 }
 
-KeyRow find_key(const RequestContext& context, const std::string& id) {
-  const std::vector<KeyRow> all = context.keys.list();
+KeyRow find_key(Keys& keys, const std::string& id) {
+  const std::vector<KeyRow> all = keys.list();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const KeyRow& key) { return key.id == id; });
   if (found == all.end()) throw HttpError{404, fmt::format("there is no key {}", id)};
@@ -81,8 +83,8 @@ std::int64_t expiry_in(const json& body) {
 
 }  // namespace
 
-void create_key(const RequestContext& context, const Request& request, Response& response) {
-  if (!context.keys.are_needed()) {
+void create_key(Keys& keys, const Request& request, Response& response) {
+  if (!keys.are_needed()) {
     throw HttpError{403,
                     "the first key is made on the machine of the service: throng keys create NAME "
                     "--scope admin --data DIR"};
@@ -93,30 +95,30 @@ void create_key(const RequestContext& context, const Request& request, Response&
   const auto max_jobs = integer_in(body, "max_jobs", 0, std::numeric_limits<int>::max());
   const auto max_bytes = integer_in(body, "max_bytes", 0, std::numeric_limits<std::int64_t>::max());
   const auto max_priority = integer_in(body, "max_priority", -kMaxPriority, kMaxPriority);
-  const std::string token =
-      context.keys.create(name, scope_in(body), static_cast<int>(max_jobs), max_bytes,
-                          static_cast<int>(max_priority), expiry_in(body));
-  json answer = key_json(context.keys.row_of(token).value());
+  const std::string token = keys.create(name, scope_in(body), static_cast<int>(max_jobs), max_bytes,
+                                        static_cast<int>(max_priority), expiry_in(body));
+  json answer = key_json(keys.row_of(token).value());
   answer["key"] = token;  // this once
   response.set_header("Location", answer["links"]["self"].get<std::string>());
   response.set_header("Cache-Control", "no-store");
   write_json(response, 201, answer);
 }
 
-void list_keys(const RequestContext& context, const Request&, Response& response) {
+void list_keys(Keys& keys, Response& response) {
   json list = json::array();
-  for (const KeyRow& key : context.keys.list()) list.push_back(key_json(key));
+  for (const KeyRow& key : keys.list()) list.push_back(key_json(key));
   write_json(response, 200, {{"keys", std::move(list)}});
 }
 
-void revoke_key(const RequestContext& context, const Request& request, Response& response) {
-  const KeyRow key = find_key(context, request.matches[1]);
-  if (key.id == context.caller.key_id) {
+void revoke_key(Keys& keys, const RevokedKeys& revoked, const Caller& caller,
+                const Request& request, Response& response) {
+  const KeyRow key = find_key(keys, request.matches[1]);
+  if (key.id == caller.key_id) {
     throw HttpError{409, "this key makes the request: revoke it with another one"};
   }
-  if (!context.keys.revoke(key.id)) throw HttpError{409, "the key is revoked already"};
-  const RevokedKeys::Ended ended = context.revoked.end_work();
-  json answer = key_json(find_key(context, key.id));
+  if (!keys.revoke(key.id)) throw HttpError{409, "the key is revoked already"};
+  const RevokedKeys::Ended ended = revoked.end_work();
+  json answer = key_json(find_key(keys, key.id));
   answer["ended"] = {{"jobs", ended.jobs}, {"live_flights", ended.live_flights}};
   write_json(response, 200, answer);
 }

@@ -3,16 +3,14 @@
 // out the others by a first key.
 #pragma once
 
-#include "server/api/request_context.h"
+#include "server/api/service_parts.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
 
-void create_key(const RequestContext& context, const httplib::Request& request,
-                httplib::Response& response);
-void list_keys(const RequestContext& context, const httplib::Request& request,
-               httplib::Response& response);
-void revoke_key(const RequestContext& context, const httplib::Request& request,
-                httplib::Response& response);
+void create_key(Keys& keys, const httplib::Request& request, httplib::Response& response);
+void list_keys(Keys& keys, httplib::Response& response);
+void revoke_key(Keys& keys, const RevokedKeys& revoked, const Caller& caller,
+                const httplib::Request& request, httplib::Response& response);
 
 }  // namespace throng::server

@@ -12,10 +12,12 @@
 
 #include "base/error.h"
 #include "base/text/slug.h"
+#include "server/access/keys.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
 #include "server/http/file_answer.h"
 #include "server/http/http.h"
+#include "server/jobs/job_queue.h"
 #include "server/live/live_flights.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/live/commands.h"
@@ -28,15 +30,16 @@ using nlohmann::json;
 
 namespace {
 
-bool is_own(const RequestContext& context, const LiveFlight& flight) {
-  return sees_all(context.caller) || flight.owner() == context.caller.key_id;
+bool is_own(const Caller& caller, const LiveFlight& flight) {
+  return sees_all(caller) || flight.owner() == caller.key_id;
 }
 
 /// The caller's flight that the path names. Throws HttpError 404.
-std::shared_ptr<LiveFlight> find_flight(const RequestContext& context, const Request& request) {
+std::shared_ptr<LiveFlight> find_flight(LiveFlights& live, const Caller& caller,
+                                        const Request& request) {
   const std::string id = request.matches[1];
-  std::shared_ptr<LiveFlight> flight = context.live.find(id);
-  if (!flight || !is_own(context, *flight)) {
+  std::shared_ptr<LiveFlight> flight = live.find(id);
+  if (!flight || !is_own(caller, *flight)) {
     throw HttpError{404, fmt::format("there is no live flight {}", id)};
   }
   return flight;
@@ -76,14 +79,14 @@ std::vector<Problem> problems_below(std::vector<Problem> problems, const std::st
   return problems;
 }
 
-jobs::ResolvedJob job_in(const RequestContext& context, const json& body) {
+jobs::ResolvedJob job_in(JobQueue& queue, const Caller& caller, const json& body) {
   const auto job = body.find("job");
   if (job == body.end() || !job->is_object()) {
     throw wrong_field("request", "/job", job == body.end() ? "nothing" : job->dump().substr(0, 60),
                       "a job");
   }
   try {
-    jobs::ResolvedJob resolved = context.queue.resolve(*job, viewer_key(context.caller));
+    jobs::ResolvedJob resolved = queue.resolve(*job, viewer_key(caller));
     // A flight takes place in one scenario: that of the job's first run.
     if (!resolved.spec().drones.empty()) {
       return jobs::ResolvedJob(jobs::in_scenario_of_run(resolved.spec(), 0), resolved.load());
@@ -103,10 +106,9 @@ bool is_to_be_recorded(const json& body) {
 }
 
 /// Bytes that the caller's key leaves to a recording; 0: unlimited. Throws QuotaError.
-std::int64_t left_to_recording(const RequestContext& context) {
-  const Caller& caller = context.caller;
+std::int64_t left_to_recording(JobQueue& queue, const Caller& caller) {
   if (caller.max_bytes <= 0) return 0;
-  const std::int64_t used = context.queue.bytes_of(caller.key_id);
+  const std::int64_t used = queue.bytes_of(caller.key_id);
   if (used < caller.max_bytes) return caller.max_bytes - used;
   throw QuotaError(fmt::format(
       "your jobs take {} bytes of disk, and this key may have {} beside its live flights: remove "
@@ -116,13 +118,14 @@ std::int64_t left_to_recording(const RequestContext& context) {
 
 }  // namespace
 
-void begin_live(const RequestContext& context, const Request& request, Response& response) {
+void begin_live(JobQueue& queue, LiveFlights& live, const Caller& caller, const Request& request,
+                Response& response) {
   const json body = json_fields(request, "request", {"job", "record"});
   const bool is_recorded = is_to_be_recorded(body);
-  const jobs::ResolvedJob job = job_in(context, body);
+  const jobs::ResolvedJob job = job_in(queue, caller, body);
   try {
-    const std::int64_t max_bytes = is_recorded ? left_to_recording(context) : 0;
-    const auto flight = context.live.begin(job, context.caller.key_id, is_recorded, max_bytes);
+    const std::int64_t max_bytes = is_recorded ? left_to_recording(queue, caller) : 0;
+    const auto flight = live.begin(job, caller.key_id, is_recorded, max_bytes);
     response.set_header("Location", "/v1/live/" + flight->id());
     write_json(response, 201, flight_json(*flight));
   } catch (const LiveFlightsFull& full) {
@@ -131,10 +134,10 @@ void begin_live(const RequestContext& context, const Request& request, Response&
   }
 }
 
-void list_live(const RequestContext& context, const Request& /*request*/, Response& response) {
+void list_live(LiveFlights& live, const Caller& caller, Response& response) {
   json list = json::array();
-  for (const auto& flight : context.live.all()) {
-    if (!is_own(context, *flight)) continue;
+  for (const auto& flight : live.all()) {
+    if (!is_own(caller, *flight)) continue;
     json value = flight_json(*flight);
     value.erase("result");
     list.push_back(std::move(value));
@@ -143,14 +146,16 @@ void list_live(const RequestContext& context, const Request& /*request*/, Respon
   write_json(response, 200, {{"flights", std::move(list)}});
 }
 
-void send_live(const RequestContext& context, const Request& request, Response& response) {
+void send_live(LiveFlights& live, const Caller& caller, const Request& request,
+               Response& response) {
   response.set_header("Cache-Control", "no-store");
-  write_json(response, 200, flight_json(*find_flight(context, request)));
+  write_json(response, 200, flight_json(*find_flight(live, caller, request)));
 }
 
-void stream_live(const RequestContext& context, const Request& request, Response& response) {
-  const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
-  const std::shared_ptr<void> held = context.live.begin_view(context.caller.key_id);
+void stream_live(LiveFlights& live, Keys& keys, const Caller& caller, const Request& request,
+                 Response& response) {
+  const std::shared_ptr<LiveFlight> flight = find_flight(live, caller, request);
+  const std::shared_ptr<void> held = live.begin_view(caller.key_id);
   if (held == nullptr) {
     throw HttpError{429, fmt::format("this key may watch live flights {} times at once, and all "
                                      "keys together {}: close some streams",
@@ -160,7 +165,7 @@ void stream_live(const RequestContext& context, const Request& request, Response
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold messages back
   response.set_chunked_content_provider(
-      "application/octet-stream", [viewer, held, &keys = context.keys, caller = context.caller,
+      "application/octet-stream", [viewer, held, &keys = keys, caller = caller,
                                    next_check = std::chrono::steady_clock::time_point()](
                                       std::size_t, httplib::DataSink& sink) mutable {
         const std::string bytes = viewer->next();
@@ -178,9 +183,10 @@ void stream_live(const RequestContext& context, const Request& request, Response
       });
 }
 
-void command_live(const RequestContext& context, const Request& request, Response& response) {
+void command_live(LiveFlights& live, const Caller& caller, const Request& request,
+                  Response& response) {
   require_json(request);
-  const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
+  const std::shared_ptr<LiveFlight> flight = find_flight(live, caller, request);
   const json body = parse_json_body(request);
   live::Commands commands;
   try {
@@ -192,8 +198,9 @@ void command_live(const RequestContext& context, const Request& request, Respons
   response.status = 204;
 }
 
-void stop_live(const RequestContext& context, const Request& request, Response& response) {
-  const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
+void stop_live(LiveFlights& live, const Caller& caller, const Request& request,
+               Response& response) {
+  const std::shared_ptr<LiveFlight> flight = find_flight(live, caller, request);
   if (flight->state() != LiveState::failed && flight->time_s() <= 0) {
     throw HttpError{409, "the flight has not begun: nobody has looked at it yet"};
   }
@@ -201,9 +208,9 @@ void stop_live(const RequestContext& context, const Request& request, Response& 
   write_json(response, 200, flight_json(*flight));
 }
 
-void send_live_recording(const RequestContext& context, const Request& request,
+void send_live_recording(LiveFlights& live, const Caller& caller, const Request& request,
                          Response& response) {
-  const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
+  const std::shared_ptr<LiveFlight> flight = find_flight(live, caller, request);
   if (!flight->is_recorded()) {
     throw HttpError{404, "the flight was not recorded: it was begun without \"record\": true"};
   }
@@ -220,8 +227,9 @@ void send_live_recording(const RequestContext& context, const Request& request,
                    fmt::format("\"{}\"", flight->id()));
 }
 
-void remove_live(const RequestContext& context, const Request& request, Response& response) {
-  if (!context.live.remove(find_flight(context, request)->id()))
+void remove_live(LiveFlights& live, const Caller& caller, const Request& request,
+                 Response& response) {
+  if (!live.remove(find_flight(live, caller, request)->id()))
     throw HttpError{404, "already removed"};
   response.status = 204;
 }

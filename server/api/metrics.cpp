@@ -11,10 +11,17 @@
 #include <sstream>
 
 #include "base/text/prometheus.h"
+#include "jobs/queue/workers/executor.h"
+#include "jobs/queue/workers/task_meters.h"
 #include "server/api/service_api.h"
+#include "server/catalog/service_folders.h"
+#include "server/catalog/uploads.h"
 #include "server/http/http.h"
 #include "server/http/http_meters.h"
 #include "server/jobs/disk_watch.h"
+#include "server/jobs/drain.h"
+#include "server/jobs/job_queue.h"
+#include "server/webhooks/webhook_sender.h"
 
 namespace throng::server {
 
@@ -126,11 +133,11 @@ std::string job_metrics(const JobQueue& queue) {
   return text + queue.ended_jobs();
 }
 
-std::string disk_metrics(const RequestContext& context) {
-  const DiskState disk = measure_disk(context.folders.data());
+std::string disk_metrics(JobQueue& queue, Uploads& uploads, const ServiceFolders& folders) {
+  const DiskState disk = measure_disk(folders.data());
   constexpr const char* kStored = "throng_stored_bytes";
-  std::int64_t uploads = 0;
-  for (const ScenarioUpload& upload : context.uploads.scenarios().list()) uploads += upload.bytes;
+  std::int64_t upload_bytes = 0;
+  for (const ScenarioUpload& upload : uploads.scenarios().list()) upload_bytes += upload.bytes;
   const auto stored = [](const char* what, std::int64_t bytes) {
     return prometheus_line(kStored, prometheus_labels({{"of", what}}), static_cast<double>(bytes));
   };
@@ -139,33 +146,34 @@ std::string disk_metrics(const RequestContext& context) {
          one("throng_disk_total_bytes", "gauge", "Size of that disk.",
              static_cast<double>(disk.total_bytes)) +
          prometheus_head(kStored, "gauge", "Bytes that jobs and uploaded scenarios take.") +
-         stored("jobs", context.queue.total_bytes()) + stored("uploads", uploads);
+         stored("jobs", queue.total_bytes()) + stored("uploads", upload_bytes);
 }
 
 }  // namespace
 
-void send_service_metrics(const RequestContext& context, const httplib::Request&,
+void send_service_metrics(JobQueue& queue, Uploads& uploads, const ServiceFolders& folders,
+                          WebhookSender& hooks, Drain& drain, const jobs::TaskMeters& tasks,
+                          const HttpMeters& http, const jobs::Executor& executor,
                           httplib::Response& response) {
-  const auto events = static_cast<double>(context.queue.last_event());
+  const auto events = static_cast<double>(queue.last_event());
   const ResidentBytes memory = resident_bytes();
   response.set_content(
-      job_metrics(context.queue) +
+      job_metrics(queue) +
           one("throng_events_total", "counter", "Events of jobs since the store was made.",
               events) +
-          one("throng_event_streams", "gauge", "Clients that watch events.",
-              context.queue.watchers()) +
+          one("throng_event_streams", "gauge", "Clients that watch events.", queue.watchers()) +
           one("throng_queue_paused", "gauge",
               "1 while the queue is paused because the disk is full.",
-              context.queue.paused().empty() ? 0 : 1) +
+              queue.paused().empty() ? 0 : 1) +
           one("throng_draining", "gauge", "1 while the service waits for its last tasks.",
-              context.drain.has_begun() ? 1 : 0) +
-          context.tasks.text() + node_metrics(context.executor.nodes()) + disk_metrics(context) +
+              drain.has_begun() ? 1 : 0) +
+          tasks.text() + node_metrics(executor.nodes()) + disk_metrics(queue, uploads, folders) +
           one("process_resident_memory_bytes", "gauge", "Memory of the server in RAM.",
               static_cast<double>(memory.server)) +
           one("throng_workers_resident_memory_bytes", "gauge",
               "Memory in RAM of the server's children on this machine.",
               static_cast<double>(memory.workers)) +
-          context.hooks.attempts() + context.http.text(),
+          hooks.attempts() + http.text(),
       "text/plain; version=0.0.4; charset=utf-8");
 }
 

@@ -11,9 +11,12 @@
 #include "base/text/suggest.h"
 #include "base/text/words.h"
 #include "jobs/queue/store/job_id.h"
+#include "server/access/keys.h"
 #include "server/api/list_answer.h"
 #include "server/catalog/api_json.h"
+#include "server/http/answer_budget.h"
 #include "server/http/http.h"
+#include "server/jobs/job_queue.h"
 
 namespace throng::server {
 
@@ -135,16 +138,16 @@ std::string_view kind_word(jobs::JobKind kind) {
 
 }  // namespace
 
-jobs::JobRow find_job(const RequestContext& context, const Request& request) {
-  return find_row(context, request, jobs::JobKind::dataset);
+jobs::JobRow find_job(JobQueue& queue, const Caller& caller, const Request& request) {
+  return find_row(queue, caller, request, jobs::JobKind::dataset);
 }
 
-void send_rows(const RequestContext& context, httplib::Response& response, const char* name,
-               jobs::JobFilter filter, const std::function<json(const jobs::JobRow&)>& to_json,
-               const json& more) {
-  ListAnswer answer(context.answers, name);
+void send_rows(JobQueue& queue, AnswerBudget& answers, httplib::Response& response,
+               const char* name, jobs::JobFilter filter,
+               const std::function<json(const jobs::JobRow&)>& to_json, const json& more) {
+  ListAnswer answer(answers, name);
   filter.max_text_bytes = kMaxPageBytes;
-  const std::vector<jobs::JobRow> rows = context.queue.list(filter);
+  const std::vector<jobs::JobRow> rows = queue.list(filter);
   std::size_t bytes = 0;
   std::size_t sent = 0;
   for (; sent < rows.size() && !answer.is_full(); ++sent) {
@@ -156,35 +159,36 @@ void send_rows(const RequestContext& context, httplib::Response& response, const
   answer.send(response, has_more ? rows[sent - 1].id : "", more);
 }
 
-void require_own(const RequestContext& context, const jobs::JobRow& row) {
-  if (context.caller.scope >= Scope::admin || row.owner == context.caller.key_id) return;
+void require_own(const Caller& caller, const jobs::JobRow& row) {
+  if (caller.scope >= Scope::admin || row.owner == caller.key_id) return;
   throw HttpError{
       403, fmt::format("the {} is another's: only its owner and administrators may change it",
                        kind_word(row.kind))};
 }
 
-jobs::JobRow find_row(const RequestContext& context, const Request& request, jobs::JobKind kind) {
+jobs::JobRow find_row(JobQueue& queue, const Caller& caller, const Request& request,
+                      jobs::JobKind kind) {
   const std::string id = request.matches[1];
   std::optional<jobs::JobRow> row;
-  if (jobs::is_job_id(id)) row = context.queue.get(id);
-  if (!row || row->kind != kind || !is_visible(context.caller, *row)) {
+  if (jobs::is_job_id(id)) row = queue.get(id);
+  if (!row || row->kind != kind || !is_visible(caller, *row)) {
     throw HttpError{404, fmt::format("there is no {} {}", kind_word(kind), id)};
   }
   return std::move(*row);
 }
 
-jobs::JobRow retried(const RequestContext& context, const jobs::JobRow& own) {
-  for (const KeyRow& key : context.keys.list()) {
+jobs::JobRow retried(JobQueue& queue, Keys& keys, const Caller& caller, const jobs::JobRow& own) {
+  for (const KeyRow& key : keys.list()) {
     if (key.id != own.owner || key.revoked_ms == 0) continue;
     throw HttpError{409,
                     "the key of its owner is revoked, so that it would be cancelled: submit it "
                     "again with another key"};
   }
   // An administrator may retry another's beyond its key's limits.
-  const bool is_owner = own.owner == context.caller.key_id;
-  const auto row = context.queue.retry(
-      own.id, is_owner ? jobs::OwnerLimits{context.caller.max_active, context.caller.max_bytes}
-                       : jobs::OwnerLimits{});
+  const bool is_owner = own.owner == caller.key_id;
+  const auto row =
+      queue.retry(own.id, is_owner ? jobs::OwnerLimits{caller.max_active, caller.max_bytes}
+                                   : jobs::OwnerLimits{});
   if (!row) throw HttpError{404, "it has been removed"};
   return *row;
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/api/request_context.h"
+#include "server/api/service_parts.h"
 #include "server/catalog/viewer.h"
 #include "server/description/routes.h"
 #include "server/http/http_error.h"
@@ -62,25 +62,25 @@ bool is_visible(const Caller& caller, const jobs::JobRow& row);
 Viewer viewer_key(const Caller& caller);
 
 /// The job in the request's path. Throws HttpError 404 if there is none that the caller may see.
-jobs::JobRow find_job(const RequestContext& context, const httplib::Request& request);
+jobs::JobRow find_job(JobQueue& queue, const Caller& caller, const httplib::Request& request);
 
 /// Sends a page of rows as {"NAME": [...], "next": ...} and the members of `more`. The page ends
 /// early when its rows are large. Throws HttpError 503 if there are too many such answers at once.
-void send_rows(const RequestContext& context, httplib::Response& response, const char* name,
-               jobs::JobFilter filter,
+void send_rows(JobQueue& queue, AnswerBudget& answers, httplib::Response& response,
+               const char* name, jobs::JobFilter filter,
                const std::function<nlohmann::json(const jobs::JobRow&)>& to_json,
                const nlohmann::json& more = {});
 
 /// Throws HttpError 403 unless the caller owns the job, calibration or study, or is an
 /// administrator.
-void require_own(const RequestContext& context, const jobs::JobRow& row);
+void require_own(const Caller& caller, const jobs::JobRow& row);
 
 /// Queues the caller's job or study again. Throws HttpError 404 if it has been removed and 409 if
 /// its owner's key is revoked, and as JobQueue::retry().
-jobs::JobRow retried(const RequestContext& context, const jobs::JobRow& own);
+jobs::JobRow retried(JobQueue& queue, Keys& keys, const Caller& caller, const jobs::JobRow& own);
 
 /// The job of this kind in the request's path. Throws as find_job().
-jobs::JobRow find_row(const RequestContext& context, const httplib::Request& request,
+jobs::JobRow find_row(JobQueue& queue, const Caller& caller, const httplib::Request& request,
                       jobs::JobKind kind);
 
 }  // namespace throng::server

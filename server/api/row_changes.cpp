@@ -9,6 +9,7 @@
 #include "base/text/control_characters.h"
 #include "base/text/utf8.h"
 #include "jobs/queue/store/store.h"
+#include "server/access/keys.h"
 #include "server/api/requests.h"
 #include "server/http/http.h"
 
@@ -42,16 +43,15 @@ void check_labels(const std::vector<std::string>& labels, const std::string& poi
                                 kMaxLabelLength)}}};
 }
 
-void require_priority(const RequestContext& context, int priority, const std::string& pointer) {
-  if (priority <= context.caller.max_priority) return;
-  throw HttpError{403,
-                  "this key may not give its jobs that priority",
-                  {{"", pointer, std::to_string(priority),
-                    fmt::format("at most {}", context.caller.max_priority)}}};
+void require_priority(const Caller& caller, int priority, const std::string& pointer) {
+  if (priority <= caller.max_priority) return;
+  throw HttpError{
+      403,
+      "this key may not give its jobs that priority",
+      {{"", pointer, std::to_string(priority), fmt::format("at most {}", caller.max_priority)}}};
 }
 
-jobs::JobChange read_change(const RequestContext& context, const Request& request,
-                            const jobs::JobRow& row) {
+jobs::JobChange read_change(const Caller& caller, const Request& request, const jobs::JobRow& row) {
   require_json(request);
   const json change = parse_json_body(request);
   if (!change.is_object())
@@ -64,7 +64,7 @@ jobs::JobChange read_change(const RequestContext& context, const Request& reques
       }
       wanted.priority = value;
       // An administrator may have raised it: then it may stay.
-      if (wanted.priority > row.priority) require_priority(context, wanted.priority, "/priority");
+      if (wanted.priority > row.priority) require_priority(caller, wanted.priority, "/priority");
     } else if (name == "labels") {
       const bool is_list =
           value.is_array() && std::all_of(value.begin(), value.end(),

@@ -9,10 +9,16 @@
 #include <vector>
 
 #include "base/error.h"
+#include "server/access/keys.h"
 #include "server/api/list_answer.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
+#include "server/catalog/confined_checks.h"
+#include "server/catalog/service_folders.h"
+#include "server/catalog/uploads.h"
+#include "server/http/answer_budget.h"
 #include "server/http/http.h"
+#include "server/jobs/job_queue.h"
 #include "world/scenario.h"
 
 namespace throng::server {
@@ -53,22 +59,23 @@ json uploaded_summary(const ScenarioUpload& upload, const std::string& id) {
 
 /// Scenarios as clients see them, in the order of the ids. One that is damaged has an "error" and
 /// hides no other. This process loads none: uploaded ones are known from their check.
-json scenarios_json(const RequestContext& context, const std::vector<std::string>& ids) {
-  std::vector<std::optional<ScenarioUpload>> uploads;
+json scenarios_json(Uploads& uploads, const ConfinedChecks& confined, const ServiceFolders& folders,
+                    const std::vector<std::string>& ids) {
+  std::vector<std::optional<ScenarioUpload>> uploaded;
   std::vector<std::string> shipped;
   for (const std::string& id : ids) {
-    uploads.push_back(context.uploads.scenarios().find(upload_name(id)));
-    if (!uploads.back()) shipped.push_back(id);
+    uploaded.push_back(uploads.scenarios().find(upload_name(id)));
+    if (!uploaded.back()) shipped.push_back(id);
   }
-  const auto summaries = context.confined.summaries(shipped, context.folders.scenarios());
+  const auto summaries = confined.summaries(shipped, folders.scenarios());
   json list = json::array();
   std::size_t next = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const auto& upload = uploads[i];
+    const auto& upload = uploaded[i];
     json value = upload ? uploaded_summary(*upload, ids[i]) : summaries.at(next++);
     value["id"] = ids[i];
     if (value.contains("error")) {
-      value["error"] = context.folders.without_paths(value["error"].get<std::string>());
+      value["error"] = folders.without_paths(value["error"].get<std::string>());
     } else {
       value["uploaded"] = upload ? upload_json(*upload) : json(nullptr);
     }
@@ -95,22 +102,22 @@ bool is_blueprint(const Request& request) {
 
 }  // namespace
 
-void upload_scenarios(const RequestContext& context, const Request& request, Response& response) {
+void upload_scenarios(Uploads& uploads, const ServiceFolders& folders, const Caller& caller,
+                      const Request& request, Response& response) {
   const bool from_blueprint = is_blueprint(request);
   const std::string name = request.get_param_value("name");
-  ScenarioStore& uploads = context.uploads.scenarios();
+  ScenarioStore& store = uploads.scenarios();
   if (is_bundle_name(name)) throw HttpError{409, "names like this are those of jobs' own bundles"};
-  if (uploads.is_taken(name)) {
+  if (store.is_taken(name)) {
     throw HttpError{409, fmt::format("there are scenarios named \"{}\" already", name)};
   }
-  context.uploads.require_rate(context.caller.key_id);
+  uploads.require_rate(caller.key_id);
   try {
     ScenarioStore::Staged staged =
-        from_blueprint
-            ? uploads.stage_blueprint(name, parse_json_body(request), context.caller.key_id)
-            : uploads.stage(name, request.body, context.caller.key_id);
+        from_blueprint ? store.stage_blueprint(name, parse_json_body(request), caller.key_id)
+                       : store.stage(name, request.body, caller.key_id);
     const bool dry = is_asked(request, "dry_run");
-    const ScenarioUpload upload = dry ? staged.upload : uploads.publish(staged);
+    const ScenarioUpload upload = dry ? staged.upload : store.publish(staged);
     json value = upload_json(upload);
     value["ids"] = upload.ids;
     value["findings"] = findings_json(staged.findings);
@@ -120,24 +127,26 @@ void upload_scenarios(const RequestContext& context, const Request& request, Res
     throw HttpError{400,
                     from_blueprint ? "no scenario can be made of the blueprint"
                                    : "the bundle cannot be used as it stands",
-                    context.folders.without_paths(error.problems())};
+                    folders.without_paths(error.problems())};
   }
 }
 
-void list_scenarios(const RequestContext& context, const Request& request, Response& response) {
-  std::vector<std::string> ids = world::list_scenarios(context.folders.scenarios());
+void list_scenarios(Uploads& uploads, const ConfinedChecks& confined, const ServiceFolders& folders,
+                    AnswerBudget& answers, const Request& request, Response& response) {
+  std::vector<std::string> ids = world::list_scenarios(folders.scenarios());
   // Those of one job's bundle are of no use to others.
   std::erase_if(ids, [](const std::string& id) { return is_bundle_name(upload_name(id)); });
   const std::string after = request.get_param_value("after");
   std::sort(ids.begin(), ids.end());
   std::erase_if(ids, [&](const std::string& id) { return !after.empty() && id <= after; });
-  ListAnswer answer(context.answers, "scenarios");
+  ListAnswer answer(answers, "scenarios");
   constexpr std::size_t kAtOnce = 100;  // for each the check of shipped ones is a process
   std::size_t sent = 0;
   while (sent < ids.size() && !answer.is_full()) {
     const std::size_t end = std::min(sent + kAtOnce, ids.size());
-    for (const json& value : scenarios_json(context, {ids.begin() + static_cast<long>(sent),
-                                                      ids.begin() + static_cast<long>(end)})) {
+    for (const json& value : scenarios_json(
+             uploads, confined, folders,
+             {ids.begin() + static_cast<long>(sent), ids.begin() + static_cast<long>(end)})) {
       if (answer.is_full()) break;
       answer.add(value);
       ++sent;
@@ -146,50 +155,51 @@ void list_scenarios(const RequestContext& context, const Request& request, Respo
   answer.send(response, sent < ids.size() ? ids[sent - 1] : "", {});
 }
 
-void send_scenario(const RequestContext& context, const Request& request, Response& response) {
+void send_scenario(Uploads& uploads, const ConfinedChecks& confined, const ServiceFolders& folders,
+                   const Request& request, Response& response) {
   const std::string id = request.matches[1];
-  const auto all = world::list_scenarios(context.folders.scenarios());
+  const auto all = world::list_scenarios(folders.scenarios());
   if (std::find(all.begin(), all.end(), id) == all.end()) {
     throw HttpError{404, "there is no such scenario; GET /v1/scenarios lists them"};
   }
   const std::string format = request.get_param_value("format");
   if (format == "svg") {
-    return response.set_content(context.confined.scenario_plan(id, context.folders.scenarios()),
-                                "image/svg+xml");
+    return response.set_content(confined.scenario_plan(id, folders.scenarios()), "image/svg+xml");
   }
   if (format == "blueprint") {
-    const json blueprint = context.confined.blueprint(id, context.folders.scenarios());
+    const json blueprint = confined.blueprint(id, folders.scenarios());
     if (blueprint.is_null()) throw HttpError{404, "this scenario was not made from a blueprint"};
     return write_json(response, 200, blueprint);
   }
   if (!format.empty() && format != "json") {
     throw HttpError{400, "format is wrong", {{"", "?format", format, "json, svg or blueprint"}}};
   }
-  json value = scenarios_json(context, {id}).front();
+  json value = scenarios_json(uploads, confined, folders, {id}).front();
   if (value.contains("error")) {
     throw HttpError{400, "the scenario cannot be loaded", {{"", "", value["error"], ""}}};
   }
   write_json(response, 200, value);
 }
 
-void send_job_plan(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(context, request);
-  response.set_content(context.confined.job_plan(row.spec_json, context.folders.scenarios()),
-                       "image/svg+xml");
+void send_job_plan(JobQueue& queue, const ConfinedChecks& confined, const ServiceFolders& folders,
+                   const Caller& caller, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(queue, caller, request);
+  response.set_content(confined.job_plan(row.spec_json, folders.scenarios()), "image/svg+xml");
 }
 
-void remove_scenarios(const RequestContext& context, const Request& request, Response& response) {
+void remove_scenarios(Uploads& uploads, const Caller& caller, const Request& request,
+                      Response& response) {
   const std::string name = request.matches[1];
-  const auto upload = context.uploads.scenarios().find(name);
+  const auto upload = uploads.scenarios().find(name);
   if (!upload || is_bundle_name(name)) {
     throw HttpError{404,
                     "there is no such upload; its name is the first part of its scenarios' ids"};
   }
-  if (context.caller.scope < Scope::admin && upload->owner != context.caller.key_id) {
+  if (caller.scope < Scope::admin && upload->owner != caller.key_id) {
     throw HttpError{403,
                     "the upload is another's: only its owner and administrators may remove it"};
   }
-  if (!context.uploads.remove(name)) throw HttpError{404, "already removed"};
+  if (!uploads.remove(name)) throw HttpError{404, "already removed"};
   response.status = 204;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "server/access/keys.h"
+#include "server/access/sessions.h"
 #include "server/api/requests.h"
 #include "server/http/http.h"
 
@@ -77,11 +79,10 @@ void set_cookie(const Request& request, Response& response, const std::string& v
                                                 is_secure ? "; Secure" : "", more));
 }
 
-void write_session(const RequestContext& context, const std::optional<Caller>& caller,
-                   Response& response) {
+void write_session(Keys& keys, const std::optional<Caller>& caller, Response& response) {
   response.set_header("Cache-Control", "no-store");
   write_json(response, 200,
-             {{"needs_key", context.keys.are_needed()},
+             {{"needs_key", keys.are_needed()},
               {"scope", caller ? json(to_string(caller->scope)) : json(nullptr)}});
 }
 
@@ -103,31 +104,31 @@ bool has_credentials(const Request& request) {
   return request.has_header(kAuthorization) || !token_in(request).empty();
 }
 
-void confirm_access(const RequestContext&, const Request&, Response& response) {
+void confirm_access(Response& response) {
   response.set_header("Cache-Control", "no-store");
   response.status = 204;
 }
 
-void open_session(const RequestContext& context, const Request& request, Response& response) {
+void open_session(Keys& keys, Sessions& sessions, const Request& request, Response& response) {
   require_json(request);
   const json body = parse_json_body(request);
   if (!body.contains("key") || !body["key"].is_string()) {
     throw HttpError{400, "a session needs a key", {{"", "/key", "nothing", "a key as text"}}};
   }
   const std::string key = body["key"];
-  const auto caller = context.keys.caller_of(key);
-  if (!caller) throw HttpError{401, context.keys.refusal_of(key)};
-  context.sessions.close(token_in(request));
-  set_cookie(request, response, context.sessions.open(key), "");
-  write_session(context, caller, response);
+  const auto caller = keys.caller_of(key);
+  if (!caller) throw HttpError{401, keys.refusal_of(key)};
+  sessions.close(token_in(request));
+  set_cookie(request, response, sessions.open(key), "");
+  write_session(keys, caller, response);
 }
 
-void send_session(const RequestContext& context, const Request& request, Response& response) {
-  write_session(context, caller_in(context.keys, context.sessions, request), response);
+void send_session(Keys& keys, Sessions& sessions, const Request& request, Response& response) {
+  write_session(keys, caller_in(keys, sessions, request), response);
 }
 
-void close_session(const RequestContext& context, const Request& request, Response& response) {
-  context.sessions.close(token_in(request));
+void close_session(Sessions& sessions, const Request& request, Response& response) {
+  sessions.close(token_in(request));
   set_cookie(request, response, "", "; Max-Age=0");
   response.status = 204;
 }

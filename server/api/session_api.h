@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "server/api/request_context.h"
+#include "server/api/service_parts.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
@@ -23,14 +23,13 @@ bool has_credentials(const httplib::Request& request);
 
 /// Responds with 204 to callers with sufficient scope, for proxies that check access before they
 /// read a body (docker/nginx.conf).
-void confirm_access(const RequestContext& context, const httplib::Request& request,
-                    httplib::Response& response);
+void confirm_access(httplib::Response& response);
 
-void open_session(const RequestContext& context, const httplib::Request& request,
+void open_session(Keys& keys, Sessions& sessions, const httplib::Request& request,
                   httplib::Response& response);
-void send_session(const RequestContext& context, const httplib::Request& request,
+void send_session(Keys& keys, Sessions& sessions, const httplib::Request& request,
                   httplib::Response& response);
-void close_session(const RequestContext& context, const httplib::Request& request,
+void close_session(Sessions& sessions, const httplib::Request& request,
                    httplib::Response& response);
 
 }  // namespace throng::server

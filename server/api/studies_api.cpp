@@ -15,11 +15,17 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/files/hash.h"
+#include "server/access/keys.h"
 #include "server/api/requests.h"
 #include "server/api/row_changes.h"
 #include "server/catalog/api_json.h"
+#include "server/catalog/service_folders.h"
+#include "server/catalog/studies.h"
+#include "server/http/answer_budget.h"
 #include "server/http/file_answer.h"
 #include "server/http/http.h"
+#include "server/jobs/housekeeping.h"
+#include "server/jobs/job_queue.h"
 #include "spec/study/study_files.h"
 
 namespace throng::server {
@@ -41,13 +47,13 @@ constexpr std::array kResults = {Result{study::kSummaryName, "application/json",
                                  Result{study::kMarkdownName, "text/markdown", false},
                                  Result{study::kValuesName, "application/json", true}};
 
-jobs::JobRow find_study(const RequestContext& context, const Request& request) {
-  return find_row(context, request, jobs::JobKind::study);
+jobs::JobRow find_study(JobQueue& queue, const Caller& caller, const Request& request) {
+  return find_row(queue, caller, request, jobs::JobKind::study);
 }
 
-jobs::JobRow find_own_study(const RequestContext& context, const Request& request) {
-  jobs::JobRow row = find_study(context, request);
-  require_own(context, row);
+jobs::JobRow find_own_study(JobQueue& queue, const Caller& caller, const Request& request) {
+  jobs::JobRow row = find_study(queue, caller, request);
+  require_own(caller, row);
   return row;
 }
 
@@ -80,79 +86,87 @@ void answer_with(const Request& request, Response& response, const fs::path& fil
 
 }  // namespace
 
-void submit_study(const RequestContext& context, const Request& request, Response& response) {
+void submit_study(Studies& studies, Housekeeping& housekeeping, const Caller& caller,
+                  const Request& request, Response& response) {
   require_json(request);
   const json document = parse_json_body(request);
   if (is_asked(request, "dry_run")) {
-    json plan = context.studies.checked(document);
+    json plan = studies.checked(document);
     plan["valid"] = true;
     return write_json(response, 200, plan);
   }
-  const jobs::JobRow row = context.studies.submit(
-      document, {context.caller.key_id, context.caller.max_active, context.caller.max_bytes});
+  const jobs::JobRow row =
+      studies.submit(document, {caller.key_id, caller.max_active, caller.max_bytes});
   response.set_header("Location", "/v1/studies/" + row.id);
-  write_json(response, 201, study_json(row, context.housekeeping.retention()));
+  write_json(response, 201, study_json(row, housekeeping.retention()));
 }
 
-void list_studies(const RequestContext& context, const Request& request, Response& response) {
+void list_studies(JobQueue& queue, Housekeeping& housekeeping, AnswerBudget& answers,
+                  const Caller& caller, const Request& request, Response& response) {
   const jobs::JobFilter filter{.kind = jobs::JobKind::study,
                                .after = cursor_from_request(request),
                                .limit = requested_limit(request),
-                               .visible_to = viewer_key(context.caller),
+                               .visible_to = viewer_key(caller),
                                .with_spec = false};
-  send_rows(context, response, "studies", filter, [&](const jobs::JobRow& row) {
-    return study_json(row, context.housekeeping.retention());
-  });
+  send_rows(queue, answers, response, "studies", filter,
+            [&](const jobs::JobRow& row) { return study_json(row, housekeeping.retention()); });
 }
 
-void send_study(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_study(context, request);
-  json value = study_json(row, context.housekeeping.retention());
-  value["plan"] = context.studies.plan_of(row);
-  value["summary"] = context.studies.summarize(row);
+void send_study(JobQueue& queue, Studies& studies, Housekeeping& housekeeping, const Caller& caller,
+                const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(queue, caller, request);
+  json value = study_json(row, housekeeping.retention());
+  value["plan"] = studies.plan_of(row);
+  value["summary"] = studies.summarize(row);
   write_json(response, 200, value);
 }
 
-void change_study(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow own = find_own_study(context, request);
-  const auto row = context.queue.change(own.id, read_change(context, request, own));
+void change_study(JobQueue& queue, Housekeeping& housekeeping, const Caller& caller,
+                  const Request& request, Response& response) {
+  const jobs::JobRow own = find_own_study(queue, caller, request);
+  const auto row = queue.change(own.id, read_change(caller, request, own));
   if (!row) throw HttpError{404, "the study has been removed"};
-  write_json(response, 200, study_json(*row, context.housekeeping.retention()));
+  write_json(response, 200, study_json(*row, housekeeping.retention()));
 }
 
-void cancel_study(const RequestContext& context, const Request& request, Response& response) {
-  const auto row = context.queue.cancel(find_own_study(context, request).id);
+void cancel_study(JobQueue& queue, Housekeeping& housekeeping, const Caller& caller,
+                  const Request& request, Response& response) {
+  const auto row = queue.cancel(find_own_study(queue, caller, request).id);
   if (!row) throw HttpError{404, "the study has been removed"};
-  write_json(response, 200, study_json(*row, context.housekeeping.retention()));
+  write_json(response, 200, study_json(*row, housekeeping.retention()));
 }
 
-void retry_study(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = retried(context, find_own_study(context, request));
-  write_json(response, 200, study_json(row, context.housekeeping.retention()));
+void retry_study(JobQueue& queue, Housekeeping& housekeeping, Keys& keys, const Caller& caller,
+                 const Request& request, Response& response) {
+  const jobs::JobRow row = retried(queue, keys, caller, find_own_study(queue, caller, request));
+  write_json(response, 200, study_json(row, housekeeping.retention()));
 }
 
-void remove_study(const RequestContext& context, const Request& request, Response& response) {
-  if (!context.housekeeping.remove(find_own_study(context, request).id)) {
+void remove_study(JobQueue& queue, Housekeeping& housekeeping, const Caller& caller,
+                  const Request& request, Response& response) {
+  if (!housekeeping.remove(find_own_study(queue, caller, request).id)) {
     throw HttpError{404, "already removed"};
   }
   response.status = 204;
 }
 
-void send_study_report(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_study(context, request);
+void send_study_report(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                       const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(queue, caller, request);
   if (row.state != jobs::JobState::succeeded) throw not_there_yet(row);
-  answer_with(request, response, context.folders.ground_truth_folder(row) / study::kReportName,
+  answer_with(request, response, folders.ground_truth_folder(row) / study::kReportName,
               "text/html; charset=utf-8");
 }
 
-void send_study_file(const RequestContext& context, const Request& request, Response& response) {
-  const jobs::JobRow row = find_study(context, request);
-  const fs::path folder = context.folders.ground_truth_folder(row);
+void send_study_file(JobQueue& queue, Studies& studies, const ServiceFolders& folders,
+                     const Caller& caller, const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(queue, caller, request);
+  const fs::path folder = folders.ground_truth_folder(row);
   const std::string wanted = request.matches[2];
   const auto* result = std::find_if(kResults.begin(), kResults.end(),
                                     [&](const Result& entry) { return wanted == entry.name; });
   const bool is_result = result != kResults.end();
-  const auto run = is_result ? std::nullopt : run_file(context.studies.plan_of(row), wanted);
+  const auto run = is_result ? std::nullopt : run_file(studies.plan_of(row), wanted);
   if (!is_result && !run) {
     throw HttpError{404,
                     "a study has summary.json, summary.csv, summary.md, values.json and "

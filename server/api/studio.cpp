@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "server/api/handler.h"
 #include "server/http/file_answer.h"
 #include "server/http/http.h"
 #include "server/http/http_error.h"
@@ -57,22 +58,22 @@ void send_bytes(const Request& request, Response& response, const StudioFile& fi
 }  // namespace
 
 std::span<const Route> studio_routes() {
-  static constexpr std::array kRoutes = {
-      Route{Method::get, "/", Scope::anybody, &send_studio},
-      Route{Method::get, "/new", Scope::anybody, &send_studio},
-      Route{Method::get, "/compare", Scope::anybody, &send_studio},
-      Route{Method::get, "/fly", Scope::anybody, &send_studio},
-      Route{Method::get, "/jobs", Scope::anybody, &send_studio},
-      Route{Method::get, "/jobs/{path}", Scope::anybody, &send_studio},
-      Route{Method::get, "/calibrations", Scope::anybody, &send_studio},
-      Route{Method::get, "/calibrations/{path}", Scope::anybody, &send_studio},
-      Route{Method::get, "/studies", Scope::anybody, &send_studio},
-      Route{Method::get, "/studies/{path}", Scope::anybody, &send_studio},
-      Route{Method::get, "/blueprint", Scope::anybody, &send_studio},
-      Route{Method::get, "/place", Scope::anybody, &send_studio},
-      Route{Method::get, "/keys", Scope::anybody, &send_studio},
-      Route{Method::get, "/api", Scope::anybody, &send_studio},
-      Route{Method::get, kAssetPath, Scope::anybody, &send_studio_asset},
+  static const std::array kRoutes = {
+      Route{Method::get, "/", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/new", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/compare", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/fly", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/jobs", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/jobs/{path}", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/calibrations", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/calibrations/{path}", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/studies", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/studies/{path}", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/blueprint", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/place", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/keys", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, "/api", Scope::anybody, handler(&send_studio)},
+      Route{Method::get, kAssetPath, Scope::anybody, handler(&send_studio_asset)},
   };
   return kRoutes;
 }
@@ -93,11 +94,9 @@ void write_studio(const Request& request, Response& response) {
   send_bytes(request, response, *find_file(fmt::format("index.{}.html", depth)), "no-cache");
 }
 
-void send_studio(const RequestContext&, const Request& request, Response& response) {
-  write_studio(request, response);
-}
+void send_studio(const Request& request, Response& response) { write_studio(request, response); }
 
-void send_studio_asset(const RequestContext&, const Request& request, Response& response) {
+void send_studio_asset(const Request& request, Response& response) {
   const StudioFile* file = find_file(std::string(request.matches[1]));
   if (file == nullptr || file->name.ends_with(".html")) {
     throw HttpError{404, "the page has no such file; it may be of another version: reload"};

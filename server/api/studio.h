@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "server/api/request_context.h"
+#include "server/api/service_parts.h"
 #include "server/description/routes.h"
 #include "server/http/http_fwd.h"
 #include "server/http/studio_file.h"
@@ -17,11 +17,9 @@ namespace throng::server {
 /// get the same page, whose scripts show the screen.
 std::span<const Route> studio_routes();
 
-void send_studio(const RequestContext& context, const httplib::Request& request,
-                 httplib::Response& response);
+void send_studio(const httplib::Request& request, httplib::Response& response);
 /// Sends a script or another file of the page. Throws HttpError 404.
-void send_studio_asset(const RequestContext& context, const httplib::Request& request,
-                       httplib::Response& response);
+void send_studio_asset(const httplib::Request& request, httplib::Response& response);
 
 /// Whether a request for an unknown path comes from browser navigation and should be answered with
 /// the page.

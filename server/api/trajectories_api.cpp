@@ -13,9 +13,12 @@
 #include <vector>
 
 #include "base/error.h"
+#include "server/access/keys.h"
 #include "server/api/downloads_api.h"
 #include "server/api/requests.h"
+#include "server/catalog/service_folders.h"
 #include "server/http/http.h"
+#include "server/jobs/job_queue.h"
 #include "world/trajectories.h"
 
 namespace throng::server {
@@ -120,11 +123,12 @@ std::vector<double> requested_times(const Request& request, const world::Traject
 
 }  // namespace
 
-void send_trajectories(const RequestContext& context, const Request& request, Response& response) {
+void send_trajectories(JobQueue& queue, const ServiceFolders& folders, const Caller& caller,
+                       const Request& request, Response& response) {
   // The library may not be called by several threads.
   static std::mutex mutex;
-  const jobs::JobRow row = find_job(context, request);
-  const fs::path trace = trace_file(context, row, requested_run(request, row));
+  const jobs::JobRow row = find_job(queue, caller, request);
+  const fs::path trace = trace_file(folders, row, requested_run(request, row));
   const std::lock_guard lock(mutex);
   try {
     const world::TrajectoryReader reader(trace);

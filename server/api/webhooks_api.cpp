@@ -10,6 +10,8 @@
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
 #include "server/http/http.h"
+#include "server/jobs/job_queue.h"
+#include "server/webhooks/webhook_sender.h"
 
 namespace throng::server {
 
@@ -50,9 +52,9 @@ json delivery_json(const Delivery& delivery) {
           {"succeeded", delivery.succeeded()}};
 }
 
-Webhook find_webhook(const RequestContext& context, const Request& request) {
+Webhook find_webhook(WebhookSender& hooks, const Request& request) {
   const std::string id = request.matches[1];
-  auto webhook = context.hooks.webhooks().get(id);
+  auto webhook = hooks.webhooks().get(id);
   if (!webhook) throw HttpError{404, fmt::format("there is no webhook {}", id)};
   return *webhook;
 }
@@ -98,13 +100,14 @@ std::vector<std::string> read_event_names(const json& body) {
 
 }  // namespace
 
-void create_webhook(const RequestContext& context, const Request& request, Response& response) {
+void create_webhook(JobQueue& queue, WebhookSender& hooks, const Request& request,
+                    Response& response) {
   const json body = json_fields(request, kWebhookNoun, {"url", "events", "secret"});
   const std::string url = text_at(body, "url", "");
   if (!is_url(url)) {
     throw invalid_field("/url", '"' + url + '"', "an address such as https://example.org/hook");
   }
-  if (!context.hooks.allows_private() && names_private_address(url)) {
+  if (!hooks.allows_private() && names_private_address(url)) {
     throw invalid_field("/url", '"' + url + '"',
                         "a public address (throng serve --webhook-private allows others)");
   }
@@ -113,58 +116,57 @@ void create_webhook(const RequestContext& context, const Request& request, Respo
     throw invalid_field("/secret", fmt::format("{} characters", secret.size()),
                         fmt::format("at most {}", kMaxSecretLength));
   }
-  Webhooks& webhooks = context.hooks.webhooks();
+  Webhooks& webhooks = hooks.webhooks();
   if (webhooks.list().size() >= kMaxWebhooks) {
     throw HttpError{409, fmt::format("there may be {} webhooks: remove one", kMaxWebhooks)};
   }
-  const Webhook webhook =
-      webhooks.create(url, read_event_names(body), secret, context.queue.last_event());
-  context.hooks.refresh();
+  const Webhook webhook = webhooks.create(url, read_event_names(body), secret, queue.last_event());
+  hooks.refresh();
   json answer = webhook_json(webhook);
   answer["secret"] = webhook.secret;  // this once
   response.set_header("Location", "/v1/webhooks/" + webhook.id);
   write_json(response, 201, answer);
 }
 
-void list_webhooks(const RequestContext& context, const Request&, Response& response) {
+void list_webhooks(WebhookSender& hooks, Response& response) {
   json list = json::array();
-  for (const Webhook& webhook : context.hooks.webhooks().list())
-    list.push_back(webhook_json(webhook));
+  for (const Webhook& webhook : hooks.webhooks().list()) list.push_back(webhook_json(webhook));
   write_json(response, 200, {{"webhooks", std::move(list)}});
 }
 
-void send_webhook(const RequestContext& context, const Request& request, Response& response) {
-  write_json(response, 200, webhook_json(find_webhook(context, request)));
+void send_webhook(WebhookSender& hooks, const Request& request, Response& response) {
+  write_json(response, 200, webhook_json(find_webhook(hooks, request)));
 }
 
-void change_webhook(const RequestContext& context, const Request& request, Response& response) {
-  const std::string id = find_webhook(context, request).id;
+void change_webhook(JobQueue& queue, WebhookSender& hooks, const Request& request,
+                    Response& response) {
+  const std::string id = find_webhook(hooks, request).id;
   const json body = json_fields(request, kWebhookNoun, {"enabled"});
   if (!body.contains("enabled") || !body["enabled"].is_boolean()) {
     throw invalid_field("/enabled", body.value("enabled", json(nullptr)).dump(), "true or false");
   }
-  context.hooks.webhooks().enable(id, body["enabled"], context.queue.last_event());
-  context.hooks.refresh();
-  write_json(response, 200, webhook_json(find_webhook(context, request)));
+  hooks.webhooks().enable(id, body["enabled"], queue.last_event());
+  hooks.refresh();
+  write_json(response, 200, webhook_json(find_webhook(hooks, request)));
 }
 
-void remove_webhook(const RequestContext& context, const Request& request, Response& response) {
-  context.hooks.webhooks().remove(find_webhook(context, request).id);
-  context.hooks.refresh();
+void remove_webhook(WebhookSender& hooks, const Request& request, Response& response) {
+  hooks.webhooks().remove(find_webhook(hooks, request).id);
+  hooks.refresh();
   response.status = 204;
 }
 
-void list_deliveries(const RequestContext& context, const Request& request, Response& response) {
+void list_deliveries(WebhookSender& hooks, const Request& request, Response& response) {
   json list = json::array();
-  for (const Delivery& delivery : context.hooks.webhooks().deliveries(
-           find_webhook(context, request).id, requested_limit(request))) {
+  for (const Delivery& delivery :
+       hooks.webhooks().deliveries(find_webhook(hooks, request).id, requested_limit(request))) {
     list.push_back(delivery_json(delivery));
   }
   write_json(response, 200, {{"deliveries", std::move(list)}});
 }
 
-void ping_webhook(const RequestContext& context, const Request& request, Response& response) {
-  const auto delivery = context.hooks.ping(find_webhook(context, request).id);
+void ping_webhook(WebhookSender& hooks, const Request& request, Response& response) {
+  const auto delivery = hooks.ping(find_webhook(hooks, request).id);
   if (!delivery) throw HttpError{404, "the webhook has been removed"};
   write_json(response, 200, delivery_json(*delivery));
 }

@@ -13,14 +13,15 @@
 
 namespace throng::server {
 
-struct RequestContext;
+struct HandlerArguments;
 
 enum class Method { get, post, patch, remove };
 
 /// The HTTP method: "GET", "DELETE".
 std::string_view to_string(Method method);
 
-using Handler = void (*)(const RequestContext&, const httplib::Request&, httplib::Response&);
+/// Answers a request; throws HttpError, InputError and EnvironmentError.
+using Handler = std::function<void(const HandlerArguments&)>;
 
 /// One operation of the API. A parameter's name determines its syntax: {id} lower-case letters and
 /// digits, {n} digits, {name} letters, digits and ". _ -", {path} the rest of the path.
@@ -29,7 +30,10 @@ struct Route {
   const char* path;
   Scope scope;  ///< min scope of the caller
   Handler handler;
-  Operation says = {};  ///< for openapi.json; empty for the page's files
+  Operation says = {};       ///< for openapi.json; empty for the page's files
+  bool begins_work = false;  ///< it queues work for workers: not while the service drains
+  bool is_audited = true;    ///< if it changes something
+  bool has_scripts = false;  ///< the answer is a page that runs scripts of its own
 };
 
 /// A parameter in a path.

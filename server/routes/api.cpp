@@ -15,21 +15,12 @@
 #include "base/error.h"
 #include "base/resource_exhaustion.h"
 #include "jobs/queue/confine/confined_task.h"
-#include "server/api/calibration_api.h"
-#include "server/api/downloads_api.h"
-#include "server/api/events_api.h"
-#include "server/api/jobs_api.h"
-#include "server/api/keys_api.h"
-#include "server/api/live_api.h"
+#include "server/api/handler.h"
 #include "server/api/requests.h"
-#include "server/api/scenarios_api.h"
-#include "server/api/service_api.h"
 #include "server/api/session_api.h"
-#include "server/api/studies_api.h"
 #include "server/api/studio.h"
-#include "server/api/trajectories_api.h"
-#include "server/api/webhooks_api.h"
 #include "server/catalog/api_json.h"
+#include "server/catalog/service_folders.h"
 #include "server/http/file_answer.h"
 #include "server/http/http.h"
 #include "server/routes/route_table.h"
@@ -214,9 +205,8 @@ void record_refusal(AuditLog& audit, const Keys& keys, Sessions& sessions, const
   audit.record_refusal(audit_entry(key, request, status));
 }
 
-// Commands of live flights, twenty a second, are none that anybody would look up.
 bool is_audited(const std::string& method, const Route& route) {
-  return method != "GET" && method != "HEAD" && route.handler != &command_live;
+  return method != "GET" && method != "HEAD" && route.is_audited;
 }
 
 bool is_refusal(int status) { return status == 401 || status == 403 || status == 421; }
@@ -244,12 +234,12 @@ HttpOptions with_limits(HttpOptions options, const Keys& keys, Sessions& session
 // Answers may hold what strangers have sent: no script in them runs as a part of the
 // service's page, nor is it shown within another site's. A report has scripts of its own.
 const char* content_policy(const Route& route) {
-  const bool is_report = route.handler == &send_report || route.handler == &send_study_report;
-  return is_report ? "sandbox allow-scripts allow-downloads; default-src 'none'; "
-                     "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
-                     "font-src data:; frame-ancestors 'none'"
-                   : "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; "
-                     "frame-ancestors 'none'";
+  return route.has_scripts
+             ? "sandbox allow-scripts allow-downloads; default-src 'none'; "
+               "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+               "font-src data:; frame-ancestors 'none'"
+             : "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; "
+               "frame-ancestors 'none'";
 }
 
 /// Keeps an object until the answer, which a content provider may still write, has been sent.
@@ -258,13 +248,6 @@ void hold_until_sent(Response& response, std::shared_ptr<void> held) {
       [held = std::move(held), next = response.content_provider_resource_releaser_](bool success) {
         if (next) next(success);
       };
-}
-
-/// Whether a request queues something that workers do.
-bool begins_work(const Route& route) {
-  constexpr std::array kHandlers = {&submit_job,   &retry_job,   &clone_job, &submit_calibration,
-                                    &submit_study, &retry_study, &begin_live};
-  return std::find(kHandlers.begin(), kHandlers.end(), route.handler) != kHandlers.end();
 }
 
 bool makes_room(const Route& route) {
@@ -299,7 +282,7 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         }
         key = caller.key_id;
         if (entry.scope != Scope::anybody) require_known_parameters(request, entry);
-        if (begins_work(entry) && service.drain().has_begun()) {
+        if (entry.begins_work && service.drain().has_begun()) {
           response.set_header("Retry-After", "60");
           throw HttpError{503, kDraining};
         }
@@ -310,27 +293,28 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         // A full disk shall not keep anybody from making room.
         const std::shared_ptr<void> room = makes_room(entry) ? service.reserve().free() : nullptr;
         const jobs::TaskSender sender(key);
-        entry.handler({service.queue(),
-                       service.uploads(),
-                       service.calibrations(),
-                       service.studies(),
-                       service.housekeeping(),
-                       service.datasets(),
-                       service.reports(),
-                       service.confined(),
-                       service.folders(),
-                       hooks,
-                       service.live(),
-                       service.drain(),
-                       service.tasks(),
-                       http_,
-                       service.executor(),
-                       keys,
-                       sessions_,
-                       revoked_,
-                       answers_,
-                       caller},
-                      request, response);
+        entry.handler({{service.queue(),
+                        service.uploads(),
+                        service.calibrations(),
+                        service.studies(),
+                        service.housekeeping(),
+                        service.datasets(),
+                        service.reports(),
+                        service.confined(),
+                        service.folders(),
+                        hooks,
+                        service.live(),
+                        service.drain(),
+                        service.tasks(),
+                        http_,
+                        service.executor(),
+                        keys,
+                        sessions_,
+                        revoked_,
+                        answers_,
+                        caller,
+                        request,
+                        response}});
       });
       http_.note(entry.path, request.method, response.status,
                  std::chrono::duration<double>(steady_now() - begun).count());

@@ -7,12 +7,13 @@ namespace throng::server {
 std::vector<Route> calibration_routes() {
   return tagged(
       "calibrations",
-      {on_post("/v1/calibrations", Scope::submit, &submit_calibration,
-               {.summary = "Queue a calibration (docs/calibration.md)",
-                .help = "A request may have 256 MiB (413).",
-                .body = Body{{{"application/json", "object"},
-                              {"multipart/form-data", object({{"request", "string"}})}}},
-                .answers = {created("The calibration is queued.", "Calibration")}}),
+      {begins_work(
+           on_post("/v1/calibrations", Scope::submit, &submit_calibration,
+                   {.summary = "Queue a calibration (docs/calibration.md)",
+                    .help = "A request may have 256 MiB (413).",
+                    .body = Body{{{"application/json", "object"},
+                                  {"multipart/form-data", object({{"request", "string"}})}}},
+                    .answers = {created("The calibration is queued.", "Calibration")}})),
        on_get("/v1/calibrations", Scope::read, &list_calibrations,
               {.summary = "List calibrations",
                .help = "The list also has the JSON Schema of a request.",

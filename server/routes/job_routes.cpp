@@ -10,7 +10,7 @@ namespace throng::server {
 std::vector<Route> job_routes() {
   return tagged(
       "jobs",
-      {on_post(
+      {begins_work(on_post(
            "/v1/jobs", Scope::submit, &submit_job,
            {.summary = "Queue a job",
             .help =
@@ -37,7 +37,7 @@ std::vector<Route> job_routes() {
                            "with this key.",
                            alternatives({"DryRun", "Job"})),
                         created("The job is queued and will survive a crash.", "Job")},
-            .problems = {422, 507}}),
+            .problems = {422, 507}})),
        on_get(
            "/v1/jobs", Scope::read, &list_jobs,
            {.summary = "List jobs",
@@ -71,20 +71,21 @@ std::vector<Route> job_routes() {
                 "answered with 409.",
             .answers = {ok("The job; nobody works on it any more.", "Job")},
             .problems = {409}}),
-       on_post(
+       begins_work(on_post(
            "/v1/jobs/{id}/retry", Scope::submit, &retry_job,
            {.summary =
                 "Queue a failed, partial or cancelled job again; published output is not repeated",
             .help = "It also works for a partial job; a job in another state is answered with 409.",
             .answers = {ok("The job.", "Job")},
-            .problems = {409}}),
-       on_post("/v1/jobs/{id}/clone", Scope::submit, &clone_job,
-               {.summary = "Queue a new job like this one",
-                .parameters = {idempotency_key()},
-                .body = json_body("object", "A JSON merge patch (RFC 7396) for the job.", false),
-                .answers = {ok("The job of an earlier submission with this key.", "Job"),
-                            created("The job is queued and will survive a crash.", "Job")},
-                .problems = {422}}),
+            .problems = {409}})),
+       begins_work(on_post(
+           "/v1/jobs/{id}/clone", Scope::submit, &clone_job,
+           {.summary = "Queue a new job like this one",
+            .parameters = {idempotency_key()},
+            .body = json_body("object", "A JSON merge patch (RFC 7396) for the job.", false),
+            .answers = {ok("The job of an earlier submission with this key.", "Job"),
+                        created("The job is queued and will survive a crash.", "Job")},
+            .problems = {422}})),
        on_get(
            "/v1/jobs/{id}/events", Scope::read, &send_events,
            {.summary = "Past and future events of a job",

@@ -6,7 +6,7 @@ namespace throng::server {
 std::vector<Route> live_routes() {
   return tagged(
       "live",
-      {on_post(
+      {begins_work(on_post(
            "/v1/live", Scope::submit, &begin_live,
            {.summary = "Begin a live flight of a job's drones (docs/studio.md)",
             .help = "The answer is 503 when there are too many flights, or too little memory.",
@@ -17,7 +17,7 @@ std::vector<Route> live_routes() {
                                        "Record the flight: messages of ROS 2 as MCAP, for GET "
                                        "/v1/live/{id}/recording (docs/studio.md)."}})),
             .answers = {created("The flight has begun; time runs while a client reads its stream.",
-                                "LiveFlight")}}),
+                                "LiveFlight")}})),
        on_get("/v1/live", Scope::submit, &list_live,
               {.summary = "List one's own live flights",
                .answers = {ok("The flights that go on, and those whose outcome is still known.",
@@ -41,7 +41,7 @@ std::vector<Route> live_routes() {
                .answers = {file("The recording (docs/studio.md), with Content-Length and ETag.",
                                 {{"application/octet-stream"}})},
                .problems = {409}}),
-       on_post(
+       unaudited(on_post(
            "/v1/live/{id}/commands", Scope::submit, &command_live,
            {.summary = "Fly the drones",
             .help =
@@ -53,7 +53,7 @@ std::vector<Route> live_routes() {
                 "other than 0 ends that.",
             .body = json_body("LiveCommands"),
             .answers = {done("The flight has received the commands.")},
-            .problems = {409}}),
+            .problems = {409}})),
        on_post("/v1/live/{id}/stop", Scope::submit, &stop_live,
                {.summary = "End a live flight: pilot logs, and the job that repeats it",
                 .help = "A flight before its first step is answered with 409.",

@@ -1,8 +1,10 @@
 // The routes of each resource: how they are asked for, what they say, who answers.
 #pragma once
 
+#include <utility>
 #include <vector>
 
+#include "server/api/handler.h"
 #include "server/description/openapi.h"
 #include "server/description/routes.h"
 
@@ -32,11 +34,29 @@ ValueType row(ValueType state, ValueType progress, const std::vector<Member>& mo
 /// Paths below which there is more about a value.
 ValueType links();
 
-/// A row of the table of routes, by its method.
-Route on_get(const char* path, Scope scope, Handler handler, Operation says);
-Route on_post(const char* path, Scope scope, Handler handler, Operation says);
-Route on_patch(const char* path, Scope scope, Handler handler, Operation says);
-Route on_delete(const char* path, Scope scope, Handler handler, Operation says);
+/// Rows of the table of routes, by their method.
+template <typename... Parameters>
+Route on_get(const char* path, Scope scope, void (*function)(Parameters...), Operation says) {
+  return {Method::get, path, scope, handler(function), std::move(says)};
+}
+template <typename... Parameters>
+Route on_post(const char* path, Scope scope, void (*function)(Parameters...), Operation says) {
+  return {Method::post, path, scope, handler(function), std::move(says)};
+}
+template <typename... Parameters>
+Route on_patch(const char* path, Scope scope, void (*function)(Parameters...), Operation says) {
+  return {Method::patch, path, scope, handler(function), std::move(says)};
+}
+template <typename... Parameters>
+Route on_delete(const char* path, Scope scope, void (*function)(Parameters...), Operation says) {
+  return {Method::remove, path, scope, handler(function), std::move(says)};
+}
+/// The route, which queues work for workers.
+Route begins_work(Route route);
+/// The route, whose calls are too many for the audit log.
+Route unaudited(Route route);
+/// The route, whose answer is a page that runs scripts of its own.
+Route with_scripts(Route route);
 /// The same routes, under a heading of the API's page.
 std::vector<Route> tagged(const char* tag, std::vector<Route> routes);
 

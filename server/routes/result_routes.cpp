@@ -69,7 +69,7 @@ std::vector<Route> result_routes() {
               {.summary = "Figures of all runs",
                .answers = {ok("The file metrics.json (docs/metrics.md).", "object")},
                .problems = {409}}),
-       on_get(
+       with_scripts(on_get(
            "/v1/jobs/{id}/report", Scope::read, &send_report,
            {.summary = "The report of all runs as one HTML page, made when it is first asked for",
             .help = "The answer is 503 when 32 other reports wait.",
@@ -77,7 +77,7 @@ std::vector<Route> result_routes() {
                         json_answer(
                             202, "The report is being made: ask again after `Retry-After` seconds.",
                             object({{"status", "string"}}), "Retry-After")},
-            .problems = {409}}),
+            .problems = {409}})),
        on_get("/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics,
               {.summary = "Figures of one run",
                .help = "They are there once that run was measured, whatever the others do.",

@@ -10,20 +10,19 @@
 
 namespace throng::server {
 
-Route on_get(const char* path, Scope scope, Handler handler, Operation says) {
-  return {Method::get, path, scope, handler, std::move(says)};
+Route begins_work(Route route) {
+  route.begins_work = true;
+  return route;
 }
 
-Route on_post(const char* path, Scope scope, Handler handler, Operation says) {
-  return {Method::post, path, scope, handler, std::move(says)};
+Route unaudited(Route route) {
+  route.is_audited = false;
+  return route;
 }
 
-Route on_patch(const char* path, Scope scope, Handler handler, Operation says) {
-  return {Method::patch, path, scope, handler, std::move(says)};
-}
-
-Route on_delete(const char* path, Scope scope, Handler handler, Operation says) {
-  return {Method::remove, path, scope, handler, std::move(says)};
+Route with_scripts(Route route) {
+  route.has_scripts = true;
+  return route;
 }
 
 std::vector<Route> tagged(const char* tag, std::vector<Route> routes) {
@@ -57,8 +56,7 @@ const std::string& openapi_text() {
   return text;
 }
 
-void send_openapi(const RequestContext& /*context*/, const httplib::Request& /*request*/,
-                  httplib::Response& response) {
+void send_openapi(httplib::Response& response) {
   response.set_content(openapi_text(), "application/json");
 }
 

@@ -12,7 +12,6 @@ namespace throng::server {
 std::span<const Route> routes();
 
 /// GET /openapi.json: openapi_text().
-void send_openapi(const RequestContext& context, const httplib::Request& request,
-                  httplib::Response& response);
+void send_openapi(httplib::Response& response);
 
 }  // namespace throng::server

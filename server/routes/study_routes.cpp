@@ -8,7 +8,7 @@ namespace throng::server {
 std::vector<Route> study_routes() {
   return tagged(
       "studies",
-      {on_post(
+      {begins_work(on_post(
            "/v1/studies", Scope::submit, &submit_study,
            {.summary = "Queue a study: cases times policies times paired runs (docs/study.md)",
             .help =
@@ -20,7 +20,7 @@ std::vector<Route> study_routes() {
             .answers = {ok("With dry_run, the plan of the study: cases, policies, number of "
                            "simulations, memory.",
                            "StudyPlan"),
-                        created("The study is queued and will survive a crash.", "Study")}}),
+                        created("The study is queued and will survive a crash.", "Study")}})),
        on_get("/v1/studies", Scope::read, &list_studies,
               {.summary = "List studies",
                .parameters = page_parameters(),
@@ -44,11 +44,11 @@ std::vector<Route> study_routes() {
                {.summary = "Cancel a study; finished runs are kept for a retry",
                 .answers = {ok("The study.", "Study")},
                 .problems = {409}}),
-       on_post(
+       begins_work(on_post(
            "/v1/studies/{id}/retry", Scope::submit, &retry_study,
            {.summary = "Queue a failed or cancelled study again; finished runs are not repeated",
             .answers = {ok("The study.", "Study")},
-            .problems = {409}}),
+            .problems = {409}})),
        on_get(
            "/v1/studies/{id}/events", Scope::read, &send_study_events,
            {.summary = "Past and future events of a study, with its progress",
@@ -56,11 +56,12 @@ std::vector<Route> study_routes() {
             .answers = {content("Events; as Server-Sent Events for clients that accept them, until "
                                 "the study has ended.",
                                 {{"application/json", "EventList"}, {"text/event-stream"}})}}),
-       on_get("/v1/studies/{id}/report", Scope::read, &send_study_report,
-              {.summary = "The report as one HTML page",
-               .help = "The answer is 409 until the study has succeeded.",
-               .answers = {file("The page, complete in one file.", {{"text/html", "string"}})},
-               .problems = {409}}),
+       with_scripts(
+           on_get("/v1/studies/{id}/report", Scope::read, &send_study_report,
+                  {.summary = "The report as one HTML page",
+                   .help = "The answer is 409 until the study has succeeded.",
+                   .answers = {file("The page, complete in one file.", {{"text/html", "string"}})},
+                   .problems = {409}})),
        on_get(
            "/v1/studies/{id}/files/{path}", Scope::read, &send_study_file,
            {.summary =
