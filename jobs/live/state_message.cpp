@@ -6,14 +6,13 @@
 
 #include "base/geometry/angle.h"
 #include "jobs/live/onboard_camera.h"
+#include "spec/layouts/live_records.h"
 
 namespace throng::live {
 
 using nlohmann::json;
 
 namespace {
-
-constexpr std::uint8_t kVersion = 2;
 
 json point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 
@@ -70,13 +69,29 @@ json drones_json(const Flight& flight) {
   return list;
 }
 
+layouts::DroneRecord drone_record(const world::DroneSample& drone, const DroneStatus& status) {
+  layouts::DroneRecord record;
+  for (std::size_t i = 0; i < 3; ++i) {
+    record.position.at(i) = static_cast<float>(drone.position[static_cast<int>(i)]);
+  }
+  const Eigen::Quaternionf q = drone.orientation.cast<float>();
+  record.quaternion = {q.w(), q.x(), q.y(), q.z()};
+  record.speed_mps = static_cast<float>(drone.velocity.norm());
+  record.flags = (status.beacon ? layouts::kHasBeacon : 0) |
+                 (status.on_mission ? layouts::kIsOnMission : 0) |
+                 (status.running ? layouts::kIsRunning : 0);
+  record.gimbal_deg = {static_cast<float>(status.gimbal.pitch_deg),
+                       static_cast<float>(status.gimbal.yaw_deg)};
+  return record;
+}
+
 }  // namespace
 
 json make_hello(const Flight& flight, const world::Scenario& scenario, double smoke) {
   const world::TraceHeader& header = flight.header();
   json roles = json::array();
   for (const world::AgentRole role : header.role) roles.push_back(static_cast<int>(role));
-  return {{"version", kVersion},
+  return {{"version", layouts::kLiveVersion},
           {"scenario", scenario.id},
           {"dt_s", flight.dt_s()},
           {"max_s", kMaxFlightS},
@@ -102,36 +117,24 @@ json make_hello(const Flight& flight, const world::Scenario& scenario, double sm
 std::string state_bytes(const Moment& moment, double reached_factor, bool paused) {
   const world::CrowdStep& people = *moment.now;
   std::string bytes;
-  append_number(bytes, kVersion);
-  append_number(bytes, static_cast<std::uint8_t>(paused ? 1 : 0));
-  append_number(bytes, static_cast<std::uint16_t>(moment.drones.size()));
-  append_number(bytes, static_cast<std::uint32_t>(people.position.size()));
-  append_number(bytes, moment.time_s);
-  append_number(bytes, static_cast<float>(reached_factor));
-  append_number(bytes, moment.sequence);
+  append_value(bytes,
+               layouts::StateHead{.flags = paused ? layouts::kIsPaused : std::uint8_t{0},
+                                  .drones = static_cast<std::uint16_t>(moment.drones.size()),
+                                  .people = static_cast<std::uint32_t>(people.position.size()),
+                                  .time_s = moment.time_s,
+                                  .factor = static_cast<float>(reached_factor),
+                                  .sequence = moment.sequence});
   for (std::size_t i = 0; i < moment.drones.size(); ++i) {
-    const world::DroneSample& drone = moment.flown.drones[i].back();
-    for (const double value : drone.position) append_number(bytes, static_cast<float>(value));
-    const Eigen::Quaterniond& q = drone.orientation;
-    for (const double value : {q.w(), q.x(), q.y(), q.z()}) {
-      append_number(bytes, static_cast<float>(value));
-    }
-    append_number(bytes, static_cast<float>(drone.velocity.norm()));
-    const DroneStatus& status = moment.drones[i];
-    append_number(bytes,
-                  static_cast<std::uint32_t>((status.beacon ? 1 : 0) | (status.on_mission ? 2 : 0) |
-                                             (status.running ? 4 : 0)));
-    append_number(bytes, static_cast<float>(status.gimbal.pitch_deg));
-    append_number(bytes, static_cast<float>(status.gimbal.yaw_deg));
+    append_value(bytes, drone_record(moment.flown.drones[i].back(), moment.drones[i]));
   }
-  constexpr float kYawParts = 10'000;
   for (std::size_t i = 0; i < people.position.size(); ++i) {
-    append_number(bytes, people.position[i].x());
-    append_number(bytes, people.position[i].y());
-    const float yaw = geometry::wrapped_rad(people.yaw_rad[i]);
-    append_number(bytes, static_cast<std::int16_t>(std::lround(yaw * kYawParts)));
-    append_number(bytes, people.state[i]);
-    append_number(bytes, people.flags[i]);
+    const float yaw_rad = geometry::wrapped_rad(people.yaw_rad[i]);
+    append_value(bytes,
+                 layouts::PersonRecord{.position = {people.position[i].x(), people.position[i].y()},
+                                       .yaw = static_cast<std::int16_t>(std::lround(
+                                           yaw_rad * static_cast<float>(layouts::kYawParts))),
+                                       .state = people.state[i],
+                                       .flags = people.flags[i]});
   }
   return bytes;
 }
@@ -139,9 +142,9 @@ std::string state_bytes(const Moment& moment, double reached_factor, bool paused
 std::string image_bytes(const Moment& moment, double time_s, std::size_t drone,
                         const std::string& jpeg) {
   std::string bytes;
-  append_number(bytes, time_s);
-  append_number(bytes, moment.sequence);
-  append_number(bytes, static_cast<std::uint32_t>(drone));
+  append_value(bytes, layouts::ImageHead{.time_s = time_s,
+                                         .sequence = moment.sequence,
+                                         .drone = static_cast<std::uint32_t>(drone)});
   return bytes + jpeg;
 }
 

@@ -19,6 +19,7 @@
 #include "jobs/pipeline/pipeline.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/job/scenario_mix.h"
+#include "spec/layouts/plan_sheet.h"
 #include "spec/scenarios/scenario_summary.h"
 #include "world/scenario.h"
 #include "world/scenarios/blueprint/blueprint.h"
@@ -30,8 +31,6 @@ namespace throng::jobs {
 using nlohmann::json;
 
 namespace {
-
-constexpr int kPlanPx = 1200;  // the longer side
 
 std::string text_at(const json& request, const char* key) {
   return request.at(key).get<std::string>();
@@ -57,14 +56,14 @@ json dry_run(const json& request) {
 json draw_scenario(const json& request) {
   const world::Scenario scenario =
       scenarios::find_scenario(text_at(request, "scenarios"), text_at(request, "id"));
-  return {{"svg", drawing::to_svg(scenarios::draw_plan(scenario, kPlanPx))}};
+  return {{"svg", drawing::to_svg(scenarios::draw_plan(scenario, layouts::kPlanPx))}};
 }
 
 json draw_job(const json& request) {
   const JobSpec job = in_scenario_of_run(read_resolved_job(text_at(request, "job"), "").spec(), 0);
   const world::Scenario scenario = load_job_scenario(job, text_at(request, "scenarios"));
   const auto paths = sim::planned_paths(scenario, run_spec(job, 0));
-  return {{"svg", drawing::to_svg(scenarios::draw_plan(scenario, kPlanPx, paths))}};
+  return {{"svg", drawing::to_svg(scenarios::draw_plan(scenario, layouts::kPlanPx, paths))}};
 }
 
 json describe_scenarios(const json& request) {

@@ -19,17 +19,13 @@ from numpy.typing import NDArray
 from . import _download
 from ._bundle import PathLike
 from ._http import BROKEN, Http, part, problem
+from ._layouts import LAYOUTS, read_head, record
 from .api_types import LiveFlight as LiveFlightAnswer
 from .errors import ConnectionFailedError, ServiceError
 
 _HEAD = struct.Struct("<cI")
-_STATE = struct.Struct("<BBHIdfI")
-_IMAGE = struct.Struct("<dII")
-_MAX_BYTES = 64 << 20
-_DRONE = np.dtype(
-    [("position", "<f4", 3), ("quaternion", "<f4", 4), ("speed_mps", "<f4"), ("flags", "<u4"), ("gimbal_deg", "<f4", 2)]
-)
-_PERSON = np.dtype([("position", "<f4", 2), ("yaw", "<i2"), ("state", "u1"), ("flags", "u1")])
+_LIVE = LAYOUTS["live"]
+_STATE, _IMAGE, _DRONE, _PERSON = (record(_LIVE[name]) for name in ("state_head", "image_head", "drone", "person"))
 
 
 @dataclass(frozen=True)
@@ -67,27 +63,28 @@ class LiveMessage:
     value: dict[str, Any]
 
 
-_JSON_KINDS = {b"H": "hello", b"V": "event", b"R": "result", b"E": "failure"}
+_KINDS: dict[bytes, str] = {byte.encode(): name for byte, name in _LIVE["message_types"].items()}
 Received = Union[LiveState, LiveImage, LiveMessage]
 
 
 def read_message(kind: bytes, data: bytes) -> Received | None:
     """One message of the stream; None for a sign of life."""
-    if kind == b"S":
-        _, flags, drones, people, time_s, factor, sequence = _STATE.unpack_from(data)
-        at = _STATE.size + drones * _DRONE.itemsize
+    name = _KINDS.get(kind)
+    if name == "state":
+        head = read_head(data, _STATE)
+        drones = np.frombuffer(data, _DRONE, int(head["drones"]), _STATE.itemsize)
         return LiveState(
-            time_s,
-            sequence,
-            bool(flags & 1),
-            factor,
-            np.frombuffer(data, _DRONE, drones, _STATE.size),
-            np.frombuffer(data, _PERSON, people, at),
+            float(head["time_s"]),
+            int(head["sequence"]),
+            bool(head["flags"] & _LIVE["state_flags"]["paused"]),
+            float(head["factor"]),
+            drones,
+            np.frombuffer(data, _PERSON, int(head["people"]), _STATE.itemsize + drones.nbytes),
         )
-    if kind == b"P":
-        time_s, sequence, drone = _IMAGE.unpack_from(data)
-        return LiveImage(time_s, sequence, drone, data[_IMAGE.size :])
-    return LiveMessage(_JSON_KINDS[kind], json.loads(data)) if kind in _JSON_KINDS else None
+    if name == "image":
+        head = read_head(data, _IMAGE)
+        return LiveImage(float(head["time_s"]), int(head["sequence"]), int(head["drone"]), data[_IMAGE.itemsize :])
+    return LiveMessage(name, json.loads(data)) if name in ("hello", "event", "result", "failure") else None
 
 
 class LiveFlight:
@@ -127,7 +124,7 @@ class LiveFlight:
                     raise self._http.read_problem(response)
                 while head := response.read(_HEAD.size):
                     kind, length = _HEAD.unpack(head)
-                    if length > _MAX_BYTES:
+                    if length > _LIVE["max_message_bytes"]:
                         raise ServiceError(200, "Unreadable answer", f"found a message of {length} bytes")
                     message = read_message(kind, response.read(length))
                     if message is not None:

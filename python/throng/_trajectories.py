@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import struct
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._layouts import LAYOUTS, read_head, record
 from .errors import ServiceError
 
-_HEAD = struct.Struct("<IIIfff")
-_PLACE = np.dtype([("x", "<u2"), ("y", "<u2"), ("state", "u1"), ("flags", "u1")])
-_VERSION = 1
-_ABSENT = 0xFFFF
+_LAYOUT = LAYOUTS["trajectories"]
+_HEAD, _AGENT = record(_LAYOUT["head"]), record(_LAYOUT["agent"])
 
 
 @dataclass(frozen=True)
@@ -32,14 +30,16 @@ class Trajectories:
 
 def read_trajectories(data: bytes) -> Trajectories:
     """Throws ServiceError where the bytes are none."""
-    if len(data) < _HEAD.size or _HEAD.unpack_from(data)[0] != _VERSION:
-        raise ServiceError(200, "Unreadable answer", "found no trajectories of version 1")
-    _, times, agents, x, y, step = _HEAD.unpack_from(data)
-    if len(data) != _HEAD.size + 8 * times + agents + times * agents * _PLACE.itemsize:
+    head = read_head(data, _HEAD) if len(data) >= _HEAD.itemsize else None
+    if head is None or head["version"] != _LAYOUT["version"]:
+        raise ServiceError(200, "Unreadable answer", f"found no trajectories of version {_LAYOUT['version']}")
+    times, agents = int(head["times"]), int(head["agents"])
+    roles_at = _HEAD.itemsize + 8 * times
+    if len(data) != roles_at + agents + times * agents * _AGENT.itemsize:
         raise ServiceError(200, "Unreadable answer", f"found {len(data)} bytes")
-    time_s = np.frombuffer(data, "<f8", times, _HEAD.size)
-    role = np.frombuffer(data, np.uint8, agents, _HEAD.size + 8 * times)
-    packed = np.frombuffer(data, _PLACE, times * agents, _HEAD.size + 8 * times + agents).reshape(times, agents)
-    position = np.stack([x + step * packed["x"].astype(np.float64), y + step * packed["y"].astype(np.float64)], axis=-1)
-    position[packed["x"] == _ABSENT] = np.nan
+    time_s = np.frombuffer(data, "<f8", times, _HEAD.itemsize)
+    role = np.frombuffer(data, np.uint8, agents, roles_at)
+    packed = np.frombuffer(data, _AGENT, times * agents, roles_at + agents).reshape(times, agents)
+    position = head["origin"].astype(np.float64) + float(head["step_m"]) * packed["position"].astype(np.float64)
+    position[packed["position"][..., 0] == _LAYOUT["absent"]] = np.nan
     return Trajectories(time_s, role, position, packed["state"], packed["flags"])

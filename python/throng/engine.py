@@ -16,13 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._job_base import Part, plain
+from ._layouts import FALLEN as FALLEN, FOLLOWING as FOLLOWING, PANICKED as PANICKED, PRESENT as PRESENT
 from .errors import MissingPackageError, ThrongError
 from .program import LINUX_ONLY, find_program
 
 JobLike = Union[Mapping[str, Any], Part, str, "os.PathLike[str]"]
-
-#: Bits of Simulation.flags.
-PRESENT, PANICKED, FALLEN, FOLLOWING = 1, 2, 4, 8
 
 
 class EngineError(ThrongError, ValueError):

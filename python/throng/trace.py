@@ -11,14 +11,13 @@ from typing import Any, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ._layouts import FALLEN, FOLLOWING, LAYOUTS, PANICKED, PRESENT, ROLES
 from ._optional import require
 from .errors import TraceError
 from .tables import Table
 
 FloatArray = NDArray[np.float64]
-_VERSION = 3
-_PRESENT, _PANIC, _LYING, _FOLLOWING = 1, 2, 4, 8
-ROLES = ("person", "disaster", "absent", "attacker")
+_VERSION = LAYOUTS["trace_version"]
 
 
 def _read_crowd(attributes: dict[str, Any]) -> dict[str, Any]:
@@ -133,20 +132,20 @@ class Trace:
     @property
     def present(self) -> NDArray[np.bool_]:
         """(S, N): has arrived and not left yet."""
-        return self._flag(_PRESENT)
+        return self._flag(PRESENT)
 
     @property
     def panicking(self) -> NDArray[np.bool_]:
-        return self._flag(_PANIC)
+        return self._flag(PANICKED)
 
     @property
     def lying(self) -> NDArray[np.bool_]:
-        return self._flag(_LYING)
+        return self._flag(FALLEN)
 
     @property
     def following(self) -> NDArray[np.bool_]:
         """(S, N): heads for the goal that a drone moves."""
-        return self._flag(_FOLLOWING)
+        return self._flag(FOLLOWING)
 
     @cached_property
     def scenario_document(self) -> dict[str, Any]:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <mutex>
@@ -19,6 +18,8 @@
 #include "server/catalog/service_folders.h"
 #include "server/http/http.h"
 #include "server/jobs/job_queue.h"
+#include "spec/layouts/trajectory_records.h"
+#include "spec/live/messages.h"
 #include "world/trajectories.h"
 
 namespace throng::server {
@@ -29,10 +30,8 @@ using httplib::Response;
 
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
 constexpr double kMaxPositions = 2e6;  // 12 MB
-constexpr std::uint16_t kAbsent = std::numeric_limits<std::uint16_t>::max();
-constexpr float kSteps = 65'000;  // of a coordinate
+constexpr float kSteps = 65'000;       // of a coordinate
 constexpr float kMinStepM = 0.001F;
 
 double requested_seconds(const Request& request, const char* name, double least, double usual) {
@@ -48,13 +47,6 @@ double requested_seconds(const Request& request, const char* name, double least,
                       fmt::format("seconds from {} to {}", least, kMaxTimeS)}}};
   }
   return value;
-}
-
-template <typename T>
-void append(std::string& bytes, T value) {
-  char raw[sizeof value];  // NOLINT(modernize-avoid-c-arrays)
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof value);
 }
 
 /// The grid of an answer's positions: the corner of the box of all who take part, and the step in
@@ -79,22 +71,22 @@ Grid fit_grid(const world::Trajectories& places) {
 std::string encode_trajectories(const world::Trajectories& places) {
   const Grid grid = fit_grid(places);
   std::string bytes;
-  append(bytes, kVersion);
-  append(bytes, static_cast<std::uint32_t>(places.time_s.size()));
-  append(bytes, static_cast<std::uint32_t>(places.role.size()));
-  append(bytes, grid.origin.x());
-  append(bytes, grid.origin.y());
-  append(bytes, grid.step_m);
-  for (const double time : places.time_s) append(bytes, time);
-  for (const world::AgentRole role : places.role) append(bytes, static_cast<std::uint8_t>(role));
+  live::append_value(
+      bytes, layouts::TrajectoriesHead{.times = static_cast<std::uint32_t>(places.time_s.size()),
+                                       .agents = static_cast<std::uint32_t>(places.role.size()),
+                                       .origin = {grid.origin.x(), grid.origin.y()},
+                                       .step_m = grid.step_m});
+  for (const double time_s : places.time_s) live::append_value(bytes, time_s);
+  for (const world::AgentRole role : places.role) live::append_value(bytes, role);
   for (std::size_t i = 0; i < places.position.size(); ++i) {
     const bool is_there = (places.flags[i] & world::kPresent) != 0;
     const Eigen::Vector2f at = (places.position[i] - grid.origin) / grid.step_m;
-    for (const float value : {at.x(), at.y()}) {
-      append(bytes, is_there ? static_cast<std::uint16_t>(std::lround(value)) : kAbsent);
-    }
-    append(bytes, places.state[i]);
-    append(bytes, places.flags[i]);
+    const auto steps = [&](float value) {
+      return is_there ? static_cast<std::uint16_t>(std::lround(value)) : layouts::kAbsent;
+    };
+    live::append_value(bytes, layouts::TrajectoryRecord{.position = {steps(at.x()), steps(at.y())},
+                                                        .state = places.state[i],
+                                                        .flags = places.flags[i]});
   }
   return bytes;
 }

@@ -1,6 +1,8 @@
 // Header lines of a dataset's CSV tables, shared by the code that writes and that checks them.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string_view>
 
 namespace throng::annotate {
@@ -26,5 +28,20 @@ inline constexpr std::string_view kSensorColumns =
     "gyro_z_rad_s,accelerometer_x_mps2,accelerometer_y_mps2,accelerometer_z_mps2,"
     "magnetometer_x_ut,magnetometer_y_ut,magnetometer_z_ut,pressure_pa,height_m,gps_time_s,"
     "gps_x_m,gps_y_m,gps_z_m,gps_vx_mps,gps_vy_mps,gps_vz_mps";
+
+/// The number of columns of a header.
+constexpr std::size_t column_count(std::string_view header) {
+  return static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
+}
+
+/// The index of the column `name`, which the header must have.
+consteval std::size_t column_index(std::string_view header, std::string_view name) {
+  std::size_t index = 0;
+  for (std::size_t end = header.find(','); header.substr(0, end) != name; ++index) {
+    header.remove_prefix(end + 1);
+    end = header.find(',');
+  }
+  return index;
+}
 
 }  // namespace throng::annotate

@@ -1,5 +1,6 @@
 #include "spec/live/messages.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <string_view>
@@ -12,41 +13,42 @@ static_assert(std::endian::native == std::endian::little, "messages are copied a
 
 namespace {
 
-constexpr std::size_t kHeadBytes = 5;
-constexpr std::uint32_t kMaxBytes = 64U << 20U;
-constexpr std::string_view kTypes = "HSPVREA";
+bool is_type(char byte) {
+  return std::any_of(kMessageTypes.begin(), kMessageTypes.end(),
+                     [&](const auto& row) { return static_cast<char>(row.first) == byte; });
+}
 
 }  // namespace
 
 std::string framed(const Message& message) {
   std::string bytes;
-  bytes.reserve(kHeadBytes + message.bytes.size());
+  bytes.reserve(kMessageHeadBytes + message.bytes.size());
   bytes += static_cast<char>(message.type);
-  append_number(bytes, static_cast<std::uint32_t>(message.bytes.size()));
+  append_value(bytes, static_cast<std::uint32_t>(message.bytes.size()));
   bytes += message.bytes;
   return bytes;
 }
 
 std::optional<Message> MessageReader::next() {
   const std::string_view rest = std::string_view(pending_).substr(done_);
-  if (rest.size() < kHeadBytes) {
+  if (rest.size() < kMessageHeadBytes) {
     pending_.erase(0, done_);
     done_ = 0;
     return std::nullopt;
   }
   std::uint32_t length = 0;
   std::memcpy(&length, rest.data() + 1, sizeof(length));
-  if (kTypes.find(rest.front()) == std::string_view::npos || length > kMaxBytes) {
+  if (!is_type(rest.front()) || length > kMaxMessageBytes) {
     throw EnvironmentError("a live flight sent what is no message");
   }
-  if (rest.size() < kHeadBytes + length) {
+  if (rest.size() < kMessageHeadBytes + length) {
     pending_.erase(0, done_);
     done_ = 0;
     return std::nullopt;
   }
-  done_ += kHeadBytes + length;
+  done_ += kMessageHeadBytes + length;
   return Message{static_cast<MessageType>(rest.front()),
-                 std::string(rest.substr(kHeadBytes, length))};
+                 std::string(rest.substr(kMessageHeadBytes, length))};
 }
 
 }  // namespace throng::live

@@ -2,10 +2,13 @@
 // is its type, its length and its bytes; docs/studio.md describes their content.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 namespace throng::live {
 
@@ -18,6 +21,20 @@ enum class MessageType : char {
   failure = 'E',  ///< JSON, last: kind, message, problems
   alive = 'A',    ///< empty; a heartbeat of the service
 };
+
+/// The types with their names in other languages.
+inline constexpr std::array<std::pair<MessageType, std::string_view>, 7> kMessageTypes = {
+    {{MessageType::hello, "hello"},
+     {MessageType::state, "state"},
+     {MessageType::image, "image"},
+     {MessageType::event, "event"},
+     {MessageType::result, "result"},
+     {MessageType::failure, "failure"},
+     {MessageType::alive, "alive"}}};
+
+/// Bytes of the type and of the length, which stand before a message's own bytes.
+inline constexpr std::size_t kMessageHeadBytes = 5;
+inline constexpr std::uint32_t kMaxMessageBytes = 64U << 20U;
 
 /// A message without its length.
 struct Message {
@@ -44,9 +61,11 @@ class MessageReader {
   std::size_t done_ = 0;  ///< number of bytes of pending_ that next() has returned
 };
 
-/// Appends a number's bytes, little-endian (the program runs on little-endian machines only).
-template <typename Number>
-void append_number(std::string& bytes, Number value) {
+/// Appends the bytes of a number, or of a record without padding, little-endian (the program runs
+/// on little-endian machines only).
+template <typename Value>
+void append_value(std::string& bytes, const Value& value) {
+  static_assert(std::is_trivially_copyable_v<Value>);
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));  // NOLINT
 }
 

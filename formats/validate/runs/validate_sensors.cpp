@@ -26,24 +26,28 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kColumns = 39;
+constexpr std::size_t kColumns = annotate::column_count(annotate::kSensorColumns);
+/// The index of a column of sensors/RUN/DRONE.csv.
+consteval std::size_t column(std::string_view name) {
+  return annotate::column_index(annotate::kSensorColumns, name);
+}
 // First columns of the values.
-constexpr std::size_t kTime = 0;
-constexpr std::size_t kPosition = 1;
-constexpr std::size_t kVelocity = 4;
-constexpr std::size_t kOrientation = 7;
-constexpr std::size_t kRates = 11;
-constexpr std::size_t kForce = 14;
-constexpr std::size_t kAir = 17;
-constexpr std::size_t kEnergy = 20;
-constexpr std::size_t kGyro = 21;
-constexpr std::size_t kAccelerometer = 24;
-constexpr std::size_t kMagnetometer = 27;
-constexpr std::size_t kPressure = 30;
-constexpr std::size_t kHeight = 31;
-constexpr std::size_t kGpsTime = 32;
-constexpr std::size_t kGpsPosition = 33;
-constexpr std::size_t kGpsVelocity = 36;
+constexpr std::size_t kTime = column("time_s");
+constexpr std::size_t kPosition = column("true_x_m");
+constexpr std::size_t kVelocity = column("true_vx_mps");
+constexpr std::size_t kOrientation = column("true_qw");
+constexpr std::size_t kRates = column("true_wx_rad_s");
+constexpr std::size_t kForce = column("true_fx_mps2");
+constexpr std::size_t kAir = column("air_vx_mps");
+constexpr std::size_t kEnergy = column("energy_j");
+constexpr std::size_t kGyro = column("gyro_x_rad_s");
+constexpr std::size_t kAccelerometer = column("accelerometer_x_mps2");
+constexpr std::size_t kMagnetometer = column("magnetometer_x_ut");
+constexpr std::size_t kPressure = column("pressure_pa");
+constexpr std::size_t kHeight = column("height_m");
+constexpr std::size_t kGpsTime = column("gps_time_s");
+constexpr std::size_t kGpsPosition = column("gps_x_m");
+constexpr std::size_t kGpsVelocity = column("gps_vx_mps");
 
 using Row = std::vector<double>;
 

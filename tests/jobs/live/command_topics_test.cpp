@@ -34,7 +34,7 @@ json read_cdr(const std::string& topic, const std::string& schema, const std::st
 /// A message of numbers only.
 std::string cdr(std::initializer_list<double> numbers) {
   std::string bytes("\0\1\0\0", 4);
-  for (const double number : numbers) append_number(bytes, number);
+  for (const double number : numbers) append_value(bytes, number);
   return bytes;
 }
 
@@ -94,7 +94,7 @@ TEST(CommandTopics, PathsAreReadWithTheHeadingOfTheirEnd) {
   std::string bytes("\0\1\0\0", 4);
   const auto append = [&](auto number) {
     while ((bytes.size() - 4) % sizeof(number) != 0) bytes += '\0';
-    append_number(bytes, number);
+    append_value(bytes, number);
   };
   const auto append_header = [&](const std::string& frame) {
     append(std::int32_t{1});

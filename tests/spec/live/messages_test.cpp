@@ -38,8 +38,8 @@ TEST(Messages, OtherBytesAreRefused) {
 
 TEST(Messages, NumbersAreLittleEndian) {
   std::string bytes;
-  append_number(bytes, std::uint16_t{0x0102});
-  append_number(bytes, std::uint8_t{3});
+  append_value(bytes, std::uint16_t{0x0102});
+  append_value(bytes, std::uint8_t{3});
   EXPECT_EQ(bytes, "\2\1\3");
 }
 

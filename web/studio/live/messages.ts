@@ -1,4 +1,5 @@
 // Messages of a live flight (docs/studio.md): the type, the number of bytes, the bytes.
+import { layouts, RecordLayout } from "../parts/layouts";
 
 /** Where smoke rises from; it reaches farther as it grows. */
 export interface Danger {
@@ -59,10 +60,7 @@ export interface World {
   people: { x: Float32Array; y: Float32Array; yaw: Float32Array; state: Uint8Array; flags: Uint8Array };
 }
 
-export const kPresent = 1;
-export const kPanicked = 2;
-export const kFallen = 4;
-export const kFollowing = 8;
+export const { present: kPresent, panicked: kPanicked, fallen: kFallen, following: kFollowing } = layouts.agent_flags;
 
 export interface CameraImage {
   timeS: number;
@@ -84,32 +82,36 @@ export type Message =
   | { type: "event"; value: FlightEvent }
   | { type: "end"; error: string | null };
 
-const kHeadBytes = 5;
-const kStateHeadBytes = 24;
-const kDroneBytes = 44;
-const kPersonBytes = 12;
-const kImageHeadBytes = 16;
+const kHeadBytes = 5; ///< of a message: its type and its length
+const kTypes: Record<string, string> = layouts.live.message_types;
+const kDroneFlags = layouts.live.drone_flags;
+
+const kStateHead = new RecordLayout(layouts.live.state_head);
+const kDrone = new RecordLayout(layouts.live.drone);
+const kPerson = new RecordLayout(layouts.live.person);
+const kImageHead = new RecordLayout(layouts.live.image_head);
+
+function readDrone(view: DataView, at: number): DroneState {
+  const number = (field: string, index = 0) => kDrone.read(view, at, field, index);
+  const [w, x, y, z] = [0, 1, 2, 3].map((index) => number("quaternion", index)) as [number, number, number, number];
+  const flags = number("flags");
+  return {
+    position: [number("position", 0), number("position", 1), number("position", 2)],
+    quaternion: [w, x, y, z],
+    yaw: Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+    speed: number("speed_mps"),
+    hasBeacon: (flags & kDroneFlags.beacon) !== 0,
+    isOnMission: (flags & kDroneFlags.on_mission) !== 0,
+    isRunning: (flags & kDroneFlags.running) !== 0,
+    gimbalDeg: [number("gimbal_deg", 0), number("gimbal_deg", 1)],
+  };
+}
 
 function worldOf(bytes: Uint8Array): World {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const droneCount = view.getUint16(2, true);
-  const count = view.getUint32(4, true);
-  const drones = Array.from({ length: droneCount }, (_, index): DroneState => {
-    const at = kStateHeadBytes + kDroneBytes * index;
-    const number = (place: number) => view.getFloat32(at + 4 * place, true);
-    const [w, x, y, z] = [number(3), number(4), number(5), number(6)];
-    const flags = view.getUint32(at + 32, true);
-    return {
-      position: [number(0), number(1), number(2)],
-      quaternion: [w, x, y, z],
-      yaw: Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
-      speed: number(7),
-      hasBeacon: (flags & 1) !== 0,
-      isOnMission: (flags & 2) !== 0,
-      isRunning: (flags & 4) !== 0,
-      gimbalDeg: [number(9), number(10)],
-    };
-  });
+  const droneCount = kStateHead.read(view, 0, "drones");
+  const count = kStateHead.read(view, 0, "people");
+  const drones = Array.from({ length: droneCount }, (_, index) => readDrone(view, kStateHead.bytes + kDrone.bytes * index));
   const people = {
     x: new Float32Array(count),
     y: new Float32Array(count),
@@ -117,18 +119,18 @@ function worldOf(bytes: Uint8Array): World {
     state: new Uint8Array(count),
     flags: new Uint8Array(count),
   };
-  for (let index = 0, at = kStateHeadBytes + kDroneBytes * droneCount; index < count; ++index, at += kPersonBytes) {
-    people.x[index] = view.getFloat32(at, true);
-    people.y[index] = view.getFloat32(at + 4, true);
-    people.yaw[index] = view.getInt16(at + 8, true) / 10_000;
-    people.state[index] = view.getUint8(at + 10);
-    people.flags[index] = view.getUint8(at + 11);
+  for (let index = 0, at = kStateHead.bytes + kDrone.bytes * droneCount; index < count; ++index, at += kPerson.bytes) {
+    people.x[index] = kPerson.read(view, at, "position", 0);
+    people.y[index] = kPerson.read(view, at, "position", 1);
+    people.yaw[index] = kPerson.read(view, at, "yaw") / layouts.live.yaw_parts;
+    people.state[index] = kPerson.read(view, at, "state");
+    people.flags[index] = kPerson.read(view, at, "flags");
   }
   return {
-    timeS: view.getFloat64(8, true),
-    factor: view.getFloat32(16, true),
-    sequence: view.getUint32(20, true),
-    isPaused: (view.getUint8(1) & 1) !== 0,
+    timeS: kStateHead.read(view, 0, "time_s"),
+    factor: kStateHead.read(view, 0, "factor"),
+    sequence: kStateHead.read(view, 0, "sequence"),
+    isPaused: (kStateHead.read(view, 0, "flags") & layouts.live.state_flags.paused) !== 0,
     drones,
     people,
   };
@@ -136,18 +138,20 @@ function worldOf(bytes: Uint8Array): World {
 
 function imageOf(bytes: Uint8Array): CameraImage {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const jpeg = new Blob([bytes.slice(kImageHeadBytes)], { type: "image/jpeg" });
-  return { timeS: view.getFloat64(0, true), sequence: view.getUint32(8, true), drone: view.getUint32(12, true), jpeg };
+  const jpeg = new Blob([bytes.slice(kImageHead.bytes)], { type: "image/jpeg" });
+  const number = (field: string) => kImageHead.read(view, 0, field);
+  return { timeS: number("time_s"), sequence: number("sequence"), drone: number("drone"), jpeg };
 }
 
 function messageOf(type: string, bytes: Uint8Array): Message | null {
-  if (type === "S") return { type: "world", value: worldOf(bytes) };
-  if (type === "P") return { type: "image", value: imageOf(bytes) };
-  if (type === "A") return null;
+  const name = kTypes[type];
+  if (name === "state") return { type: "world", value: worldOf(bytes) };
+  if (name === "image") return { type: "image", value: imageOf(bytes) };
+  if (name === "alive") return null;
   const value = JSON.parse(new TextDecoder().decode(bytes));
-  if (type === "H") return { type: "hello", value: value as Hello };
-  if (type === "V") return { type: "event", value: value as FlightEvent };
-  return { type: "end", error: type === "E" ? String(value.message) : null };
+  if (name === "hello") return { type: "hello", value: value as Hello };
+  if (name === "event") return { type: "event", value: value as FlightEvent };
+  return { type: "end", error: name === "failure" ? String(value.message) : null };
 }
 
 /** The messages of a stream until it ends. */

@@ -1,9 +1,8 @@
 // People that are shown, and their colors: by what they do.
+import { layouts } from "../parts/layouts";
 import { type Hello, kFallen, kFollowing, kPanicked, kPresent, type World } from "./messages";
 
-const kHazard = 1;
-const kAbsent = 2;
-const kAttacker = 3;
+const { disaster: kHazard, absent: kAbsent, attacker: kAttacker } = layouts.agent_roles;
 
 export const kColors = { walks: "#2f6fb3", panics: "#d1571b", follows: "#8a3fb0", fallen: "#1a1a1a", attacker: "#b3261e" };
 

@@ -1,13 +1,16 @@
 // Positions of the world in the drawing of a floor plan.
 
-// As world/scenarios/plan/plan_drawing.cpp draws it: the longer side, and where the ground begins in the drawing.
-const kPlanPx = 1200;
-const kBorderPx = 20;
-const kTitlePx = 30;
-const kLegendLinePx = 22;
-const kLegendColumnPx = 200;
-const kLegendEntries = 10;
-const kMinWidthPx = 640;
+import { layouts } from "./layouts";
+
+const {
+  plan_px: kPlanPx,
+  border_px: kBorderPx,
+  title_px: kTitlePx,
+  legend_line_px: kLegendLinePx,
+  legend_column_px: kLegendColumnPx,
+  legend_entries: kLegendEntries,
+  min_width_px: kMinWidthPx,
+} = layouts.plan;
 
 export interface Sheet {
   width: number;

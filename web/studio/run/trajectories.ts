@@ -1,14 +1,13 @@
 // Positions of everybody in a run, seen by cameras or not, fetched for some frames at once (docs/api.md).
 import { useEffect, useRef, useState } from "preact/hooks";
 import { request } from "../api/client";
+import { layouts, RecordLayout } from "../parts/layouts";
 import { type Capture, timeOf } from "./capture";
 
 const kBlockFrames = 32;
-const kHeadBytes = 24;
-const kPositionBytes = 6;
-const kAbsent = 0xffff;
-const kPersonRole = 0;
-const kAttackerRole = 3; ///< a person, too
+const kHead = new RecordLayout(layouts.trajectories.head);
+const kAgent = new RecordLayout(layouts.trajectories.agent);
+const { person: kPersonRole, attacker: kAttackerRole } = layouts.agent_roles; ///< an attacker is a person, too
 const kTracksPerRun = 1_000_000;
 
 /** Everybody's positions at some times. */
@@ -21,15 +20,16 @@ export interface Positions {
 }
 
 export function readPositions(buffer: ArrayBuffer): Positions {
-  const head = new DataView(buffer);
-  const [times, people] = [head.getUint32(4, true), head.getUint32(8, true)];
-  const first = kHeadBytes + 8 * times + people;
+  const view = new DataView(buffer);
+  const number = (field: string, index = 0) => kHead.read(view, 0, field, index);
+  const [times, agents] = [number("times"), number("agents")];
+  const rolesAt = kHead.bytes + 8 * times;
   return {
     times,
-    roles: new Uint8Array(buffer, kHeadBytes + 8 * times, people),
-    view: new DataView(buffer, first),
-    origin: [head.getFloat32(12, true), head.getFloat32(16, true)],
-    step: head.getFloat32(20, true),
+    roles: new Uint8Array(buffer, rolesAt, agents),
+    view: new DataView(buffer, rolesAt + agents),
+    origin: [number("origin", 0), number("origin", 1)],
+    step: number("step_m"),
   };
 }
 
@@ -43,10 +43,11 @@ export function unseenAt(
   const positions: [number, number][] = [];
   if (time >= times) return positions;
   roles.forEach((role, agent) => {
-    const at = (time * roles.length + agent) * kPositionBytes;
-    const x = view.getUint16(at, true);
-    if (x === kAbsent || (role !== kPersonRole && role !== kAttackerRole) || seen.has(agent + 1 + run * kTracksPerRun)) return;
-    positions.push([origin[0] + step * x, origin[1] + step * view.getUint16(at + 2, true)]);
+    const at = (time * roles.length + agent) * kAgent.bytes;
+    const x = kAgent.read(view, at, "position", 0);
+    if (x === layouts.trajectories.absent || (role !== kPersonRole && role !== kAttackerRole) || seen.has(agent + 1 + run * kTracksPerRun))
+      return;
+    positions.push([origin[0] + step * x, origin[1] + step * kAgent.read(view, at, "position", 1)]);
   });
   return positions;
 }

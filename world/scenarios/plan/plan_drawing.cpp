@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "spec/layouts/plan_sheet.h"
+
 namespace throng::scenarios {
 
 using drawing::Color;
@@ -15,11 +17,6 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr int kBorderPx = 20;
-constexpr int kTitlePx = 30;
-constexpr int kLegendLinePx = 22;
-constexpr int kLegendColumnPx = 200;
-constexpr int kNarrowestPx = 640;  // the legend needs as much
 constexpr double kLettersPx = 13;
 
 struct Entry {
@@ -27,22 +24,23 @@ struct Entry {
   Color color;
 };
 
-constexpr std::array<Entry, 10> kLegend = {{{"building", colors::kBuilding},
-                                            {"crowd obstacle", colors::kObstacle},
-                                            {"prop", colors::kProp},
-                                            {"open exit", colors::kOpenExit},
-                                            {"closed exit", colors::kClosedExit},
-                                            {"goal", colors::kGoal},
-                                            {"initial position", colors::kPerson},
-                                            {"people enter here", colors::kSource},
-                                            {"drone", colors::kDrone},
-                                            {"hazard", colors::kDanger}}};
+constexpr std::array<Entry, layouts::kLegendEntries> kLegend = {
+    {{"building", colors::kBuilding},
+     {"crowd obstacle", colors::kObstacle},
+     {"prop", colors::kProp},
+     {"open exit", colors::kOpenExit},
+     {"closed exit", colors::kClosedExit},
+     {"goal", colors::kGoal},
+     {"initial position", colors::kPerson},
+     {"people enter here", colors::kSource},
+     {"drone", colors::kDrone},
+     {"hazard", colors::kDanger}}};
 
 /// The height of the scale and the legend below it, in a drawing of this width.
 int legend_height_px(int width_px) {
-  const int columns = (width_px - kBorderPx) / kLegendColumnPx;
+  const int columns = (width_px - layouts::kPlanBorderPx) / layouts::kLegendColumnPx;
   const int rows = (static_cast<int>(kLegend.size()) + columns - 1) / columns;
-  return (rows + 1) * kLegendLinePx;
+  return (rows + 1) * layouts::kLegendLinePx;
 }
 
 /// A length for the scale: 1, 2 or 5 times a power of ten, about this long.
@@ -72,14 +70,16 @@ Sheet::Sheet(const world::Rectangle& area, int size_px) : area_(area) {
   px_per_m_ = size_px / size.maxCoeff();
   plan_height_px_ = static_cast<int>(std::ceil(size.y() * px_per_m_));
   drawing_.width_px =
-      std::max(kNarrowestPx, static_cast<int>(std::ceil(size.x() * px_per_m_)) + 2 * kBorderPx);
-  drawing_.height_px =
-      kTitlePx + plan_height_px_ + 2 * kBorderPx + legend_height_px(drawing_.width_px);
+      std::max(layouts::kMinPlanWidthPx,
+               static_cast<int>(std::ceil(size.x() * px_per_m_)) + 2 * layouts::kPlanBorderPx);
+  drawing_.height_px = layouts::kPlanTitlePx + plan_height_px_ + 2 * layouts::kPlanBorderPx +
+                       legend_height_px(drawing_.width_px);
 }
 
 Vector2d Sheet::at(const Vector2d& point) const {
-  return {kBorderPx + (point.x() - area_.min.x()) * px_per_m_,
-          kTitlePx + kBorderPx + plan_height_px_ - (point.y() - area_.min.y()) * px_per_m_};
+  return {layouts::kPlanBorderPx + (point.x() - area_.min.x()) * px_per_m_,
+          layouts::kPlanTitlePx + layouts::kPlanBorderPx + plan_height_px_ -
+              (point.y() - area_.min.y()) * px_per_m_};
 }
 
 void Sheet::polygon(std::span<const Vector2d> corners, const Color& fill, const Color& stroke,
@@ -129,20 +129,21 @@ void Sheet::label(const Vector2d& point, const Vector2d& offset_px, const std::s
 void Sheet::finish(const std::string& title) {
   constexpr double kTitleLettersPx = 18;
   drawing_.title = title;
-  drawing_.shapes.push_back(
-      text_shape({kBorderPx, kTitlePx}, title, kTitleLettersPx, colors::kInk));
+  drawing_.shapes.push_back(text_shape({layouts::kPlanBorderPx, layouts::kPlanTitlePx}, title,
+                                       kTitleLettersPx, colors::kInk));
   constexpr double kArrowPx = 34;
-  const double right = drawing_.width_px - 2 * kBorderPx;
+  const double right = drawing_.width_px - 2 * layouts::kPlanBorderPx;
   Shape north;
   north.kind = Shape::Kind::line;
-  north.points = {Vector2d(right, kTitlePx + kArrowPx), Vector2d(right, kTitlePx)};
+  north.points = {Vector2d(right, layouts::kPlanTitlePx + kArrowPx),
+                  Vector2d(right, layouts::kPlanTitlePx)};
   north.stroke = colors::kInk;
   north.width_px = 2;
   north.arrow = true;
   drawing_.shapes.push_back(std::move(north));
-  drawing_.shapes.push_back(
-      text_shape({right - 18, kTitlePx + 14}, std::string(1, 'N'), kLettersPx, colors::kInk));
-  add_legend(kTitlePx + plan_height_px_ + 2 * kBorderPx);
+  drawing_.shapes.push_back(text_shape({right - 18, layouts::kPlanTitlePx + 14},
+                                       std::string(1, 'N'), kLettersPx, colors::kInk));
+  add_legend(layouts::kPlanTitlePx + plan_height_px_ + 2 * layouts::kPlanBorderPx);
 }
 
 void Sheet::add_legend(double top_px) {
@@ -150,9 +151,10 @@ void Sheet::add_legend(double top_px) {
   const double length_m = round_length(kBarPx / px_per_m_);
   Shape bar;
   bar.kind = Shape::Kind::line;
-  const double end = kBorderPx + length_m * px_per_m_;
-  bar.points = {Vector2d(kBorderPx, top_px), Vector2d(kBorderPx, top_px + 6),
-                Vector2d(end, top_px + 6), Vector2d(end, top_px)};
+  const double end = layouts::kPlanBorderPx + length_m * px_per_m_;
+  bar.points = {Vector2d(layouts::kPlanBorderPx, top_px),
+                Vector2d(layouts::kPlanBorderPx, top_px + 6), Vector2d(end, top_px + 6),
+                Vector2d(end, top_px)};
   bar.stroke = colors::kInk;
   bar.width_px = 2;
   drawing_.shapes.push_back(std::move(bar));
@@ -160,10 +162,10 @@ void Sheet::add_legend(double top_px) {
     drawing_.shapes.push_back(text_shape(point, text, kLettersPx, colors::kInk));
   };
   write({end + 8, top_px + 8}, fmt::format("{:g} m", length_m));
-  Vector2d point(kBorderPx, top_px + kLegendLinePx + 6);
+  Vector2d point(layouts::kPlanBorderPx, top_px + layouts::kLegendLinePx + 6);
   for (const Entry& entry : kLegend) {
-    if (point.x() + kLegendColumnPx > drawing_.width_px) {
-      point = {static_cast<double>(kBorderPx), point.y() + kLegendLinePx};
+    if (point.x() + layouts::kLegendColumnPx > drawing_.width_px) {
+      point = {static_cast<double>(layouts::kPlanBorderPx), point.y() + layouts::kLegendLinePx};
     }
     Shape box;
     box.points = {point, point + Vector2d(12, 0), point + Vector2d(12, 10),
@@ -172,7 +174,7 @@ void Sheet::add_legend(double top_px) {
     box.fill.opacity = 1;
     drawing_.shapes.push_back(std::move(box));
     write(point + Vector2d(18, 10), entry.words);
-    point.x() += kLegendColumnPx;
+    point.x() += layouts::kLegendColumnPx;
   }
 }
 
