@@ -74,247 +74,242 @@ struct Fault {
   std::string expected;
 };
 
+using PossibleFault = std::optional<Fault>;
+
 /// An object or array that is open.
 struct Bracket {
   char opened;
   std::size_t byte;
+
+  char closing() const { return opened == '{' ? '}' : ']'; }
 };
+
+enum class Next { value, value_or_end, key, key_or_end, colon, comma_or_end, end };
+
+std::string_view word_at(std::string_view text, std::size_t start) {
+  std::size_t end = start;
+  while (end < text.size() && is_word(text[end])) ++end;
+  if (end > start) return text.substr(start, end - start);
+  while (end < text.size() && !is_space(text[end]) && text[end] != ',') ++end;
+  return text.substr(start, end - start);
+}
+
+std::string_view rest_of_line(std::string_view text, std::size_t start) {
+  return text.substr(start, text.find_first_of("\r\n", start) - start);
+}
+
+/// The word of JSON that is meant, or the form that is expected.
+std::string meant_by(std::string_view word) {
+  const std::string small = lower_case(word);
+  if (small == "true" || small == "false" || small == "null") return small;
+  if (small == "none" || small == "nil" || small == "undefined") return "null";
+  if (small == "yes" || small == "on") return "true";
+  if (small == "no" || small == "off") return "false";
+  const std::size_t sign = small.find_first_not_of("+-");
+  const std::string bare = sign == std::string::npos ? "" : small.substr(sign);
+  if (bare == "nan" || bare == "inf" || bare == "infinity") {
+    return "a number: JSON has neither NaN nor Infinity";
+  }
+  const bool is_like_number = !bare.empty() && (is_digit(bare[0]) || bare[0] == '.');
+  if (!is_like_number) return "a value; texts are in double quotes";
+  return "a number as 12, -0.5 or 1e3: no +, no leading 0, digits before and after the point";
+}
+
+/// The fault of a character inside of a text, without the byte.
+PossibleFault character_fault(std::string_view from_character) {
+  const auto byte = static_cast<unsigned char>(from_character.front());
+  constexpr unsigned char kFirstPrinted = 0x20;
+  if (byte == '\t') return Fault{0, "a tab inside of a text", "\\t"};
+  if (byte < kFirstPrinted) {
+    return Fault{0, fmt::format("the control character {:#04x} inside of a text", byte),
+                 fmt::format("\\u{:04x}", byte)};
+  }
+  if (byte != '\\' || from_character.size() < 2 || is_escape(from_character.substr(1))) return {};
+  return Fault{0, "the unknown escape " + shorten(from_character.substr(0, 2)),
+               R"(\\ for a backslash)"};
+}
+
+/// Reads a text from its opening quote at `at`, which moves behind the closing quote.
+PossibleFault read_text(std::string_view text, std::size_t& at) {
+  const std::size_t start = at++;
+  const auto is_inside = [&] {
+    return at < text.size() && text[at] != '"' && text[at] != '\n' && text[at] != '\r';
+  };
+  for (; is_inside(); ++at) {
+    if (PossibleFault fault = character_fault(text.substr(at))) {
+      fault->byte = at;
+      return fault;
+    }
+    if (text[at] == '\\' && at + 1 < text.size()) ++at;  // the escape's second character
+  }
+  if (at >= text.size() || text[at] != '"') {
+    return Fault{start, "a text without its closing quote: " + shorten(rest_of_line(text, start)),
+                 "a \" at its end"};
+  }
+  ++at;
+  if (is_utf8(text.substr(start, at - start))) return {};
+  return Fault{start, "a text with bytes that are not UTF-8", "a file in UTF-8"};
+}
+
+/// The fault of a comment, or of quotes that are not those of JSON, at a byte.
+PossibleFault comment_fault(std::string_view text, std::size_t at) {
+  for (const std::string_view comment : {"//", "/*", "#"}) {
+    if (text.substr(at).starts_with(comment)) {
+      return Fault{at, "a comment", "no comment: JSON has none"};
+    }
+  }
+  return {};
+}
+PossibleFault quote_fault(std::string_view text, std::size_t at) {
+  if (text[at] == '\'' || text[at] == '`') {
+    return Fault{at, "a text in other quotes: " + shorten(word_at(text, at)), "double quotes: \""};
+  }
+  for (const std::string_view quote : {"\xe2\x80\x9c", "\xe2\x80\x9d", "\xe2\x80\x9e"}) {
+    if (text.substr(at).starts_with(quote)) {
+      return Fault{at, "typographic quotes: " + shorten(word_at(text, at)),
+                   "plain double quotes: \""};
+    }
+  }
+  return {};
+}
+
+/// The fault of a text that ends while something else is expected.
+PossibleFault end_fault(std::string_view text, const std::vector<Bracket>& open, Next next) {
+  if (!open.empty()) {
+    const Bracket& last = open.back();
+    return Fault{text.size(),
+                 fmt::format("the end of the text, with the {} of {} still open", last.opened,
+                             text_position(text, last.byte)),
+                 std::string(1, last.closing())};
+  }
+  if (next == Next::end) return {};
+  return Fault{text.size(), "the end of the text", "a value"};
+}
 
 /// Reads the text as JSON until something is not. Holds no values, so that depth is no matter.
 class FaultFinder {
  public:
   explicit FaultFinder(std::string_view text) : text_(text) {}
 
-  std::optional<Fault> find() {
-    while (!fault_) {
-      skip_space();
-      if (fault_ || !step()) break;
+  PossibleFault find() {
+    for (;;) {
+      while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+      if (at_ >= text_.size()) return end_fault(text_, open_, next_);
+      PossibleFault fault = comment_fault(text_, at_);
+      if (!fault) fault = step(text_[at_]);
+      if (fault) return fault;
     }
-    return fault_;
   }
 
  private:
-  enum class Next { value, value_or_end, key, key_or_end, colon, comma_or_end, end };
-
-  bool is_at_end() const { return at_ >= text_.size(); }
-  bool sees(std::string_view start) const { return text_.substr(at_).starts_with(start); }
-  bool wants_key() const { return next_ == Next::key || next_ == Next::key_or_end; }
-  bool wants_value() const { return next_ == Next::value || next_ == Next::value_or_end; }
-
-  void fail(std::size_t byte, std::string found, std::string expected) {
-    if (!fault_) fault_ = Fault{byte, std::move(found), std::move(expected)};
-  }
-
-  void skip_space() {
-    while (!is_at_end() && is_space(text_[at_])) ++at_;
-    for (const std::string_view comment : {"//", "/*", "#"}) {
-      if (sees(comment)) fail(at_, "a comment", "no comment: JSON has none");
-    }
-  }
-
-  /// Reads what comes next. False at the end of the text, or at a fault.
-  bool step() {
-    if (is_at_end()) {
-      at_end();
-      return false;
-    }
+  PossibleFault step(char c) {
     if (next_ == Next::end) {
-      fail(at_, "more text after the end of the value: " + shorten(line_from(at_)),
-           "one value, and nothing after it");
-      return false;
+      return Fault{at_,
+                   "more text after the end of the value: " + shorten(rest_of_line(text_, at_)),
+                   "one value, and nothing after it"};
     }
-    const char c = text_[at_];
-    if (c == '}' || c == ']') {
-      close(c);
-    } else if (c == ',') {
-      comma();
-    } else if (c == ':' || c == '=') {
-      colon(c);
-    } else {
-      token(c);
-    }
-    return !fault_;
+    if (c == '}' || c == ']') return close(c);
+    if (c == ',') return comma();
+    if (c == ':' || c == '=') return colon(c);
+    return token(c);
   }
 
-  void at_end() {
-    if (!open_.empty()) {
-      const Bracket& last = open_.back();
-      fail(text_.size(),
-           fmt::format("the end of the text, with the {} of {} still open", last.opened,
-                       text_position(text_, last.byte)),
-           fmt::format("{}", last.opened == '{' ? '}' : ']'));
-    } else if (next_ != Next::end) {
-      fail(text_.size(), "the end of the text", "a value");
-    }
-  }
-
-  void close(char c) {
-    if (open_.empty()) return fail(at_, fmt::format("a {} that closes nothing", c), "a value");
-    const char wanted = open_.back().opened == '{' ? '}' : ']';
-    if (c != wanted) {
-      return fail(at_,
-                  fmt::format("a {} that closes the {} of {}", c, open_.back().opened,
-                              text_position(text_, open_.back().byte)),
-                  fmt::format("{}", wanted));
+  PossibleFault close(char c) {
+    if (open_.empty()) return Fault{at_, fmt::format("a {} that closes nothing", c), "a value"};
+    const Bracket& last = open_.back();
+    if (c != last.closing()) {
+      return Fault{at_,
+                   fmt::format("a {} that closes the {} of {}", c, last.opened,
+                               text_position(text_, last.byte)),
+                   std::string(1, last.closing())};
     }
     if (next_ == Next::key || (next_ == Next::value && c == ']')) {
-      return fail(comma_, fmt::format("a comma too many before {}", c),
-                  "no comma after the last one");
+      return Fault{comma_, fmt::format("a comma too many before {}", c),
+                   "no comma after the last one"};
     }
-    if (next_ == Next::value) return fail(at_, "no value after the colon", "a value");
+    if (next_ == Next::value) return Fault{at_, "no value after the colon", "a value"};
     if (next_ == Next::colon) return no_colon();
     open_.pop_back();
     ++at_;
-    after_value();
+    return after_value();
   }
 
-  void comma() {
+  PossibleFault comma() {
     if (next_ == Next::comma_or_end) {
       comma_ = at_++;
-      last_ = ',';
       next_ = open_.back().opened == '{' ? Next::key : Next::value;
-      return;
+      return {};
     }
     if (next_ == Next::colon) return no_colon();
-    const bool is_second = next_ == Next::key || (next_ == Next::value && last_ == ',');
-    fail(at_, is_second ? "a second comma" : "a comma without a value before it",
-         is_second ? "one comma" : "a value");
+    const bool is_second =
+        next_ == Next::key || (next_ == Next::value && comma_ > 0 && comma_ >= value_end_);
+    return Fault{at_, is_second ? "a second comma" : "a comma without a value before it",
+                 is_second ? "one comma" : "a value"};
   }
 
-  void colon(char c) {
+  PossibleFault colon(char c) {
     if (next_ == Next::colon && c == ':') {
       ++at_;
       next_ = Next::value;
-      last_ = ':';
-      return;
+      return {};
     }
-    if (next_ == Next::colon) return fail(at_, "=", "a colon");
-    fail(at_, fmt::format("a {} without a name in double quotes before it", c),
-         wants_key() ? "a name in double quotes" : "a comma or a closing bracket");
+    if (next_ == Next::colon) return Fault{at_, "=", "a colon"};
+    const bool wants_key = next_ == Next::key || next_ == Next::key_or_end;
+    return Fault{at_, fmt::format("a {} without a name in double quotes before it", c),
+                 wants_key ? "a name in double quotes" : "a comma or a closing bracket"};
   }
 
-  void no_colon() {
-    fail(value_end_, fmt::format("no colon after {}", shorten(last_text_)), "a colon and a value");
+  PossibleFault no_colon() const {
+    return Fault{value_end_, fmt::format("no colon after {}", shorten(last_text_)),
+                 "a colon and a value"};
   }
 
   /// A text, number, word or opening bracket.
-  void token(char c) {
+  PossibleFault token(char c) {
     if (next_ == Next::colon) return no_colon();
     if (next_ == Next::comma_or_end) {
-      return fail(value_end_, "no comma between this value and the next", "a comma");
+      return Fault{value_end_, "no comma between this value and the next", "a comma"};
     }
+    const bool wants_key = next_ == Next::key || next_ == Next::key_or_end;
     if (c == '"') {
-      read_text();
-    } else if (c == '\'' || c == '`') {
-      fail(at_, "a text in other quotes: " + shorten(word_from(at_)), "double quotes: \"");
-    } else if (sees("\xe2\x80\x9c") || sees("\xe2\x80\x9d") || sees("\xe2\x80\x9e")) {
-      fail(at_, "typographic quotes: " + shorten(word_from(at_)), "plain double quotes: \"");
-    } else if (wants_key()) {
-      fail(at_, fmt::format("{} where a field's name is due", shorten(word_from(at_))),
-           "a name in double quotes");
-    } else if (c == '{' || c == '[') {
+      const std::size_t start = at_;
+      if (PossibleFault fault = read_text(text_, at_)) return fault;
+      last_text_ = text_.substr(start, at_ - start);
+      if (!wants_key) return after_value();
+      value_end_ = at_;
+      next_ = Next::colon;
+      return {};
+    }
+    if (PossibleFault fault = quote_fault(text_, at_)) return fault;
+    const std::string_view word = word_at(text_, at_);
+    if (wants_key) {
+      return Fault{at_, fmt::format("{} where a field's name is due", shorten(word)),
+                   "a name in double quotes"};
+    }
+    if (c == '{' || c == '[') {
       open_.push_back({c, at_++});
       next_ = c == '{' ? Next::key_or_end : Next::value_or_end;
-      last_ = c;
-    } else {
-      read_word();
+      return {};
     }
+    const bool is_value = word == "true" || word == "false" || word == "null" || is_number(word);
+    if (!is_value) return Fault{at_, shorten(word), meant_by(word)};
+    at_ += word.size();
+    return after_value();
   }
 
-  void after_value() {
+  PossibleFault after_value() {
     value_end_ = at_;
     next_ = open_.empty() ? Next::end : Next::comma_or_end;
-    last_ = 'v';
-  }
-
-  void read_text() {
-    const std::size_t start = at_++;
-    while (!is_at_end() && text_[at_] != '"') {
-      if (text_[at_] == '\n' || text_[at_] == '\r') break;
-      check_character();
-      if (fault_) return;
-      ++at_;
-    }
-    if (is_at_end() || text_[at_] != '"') {
-      return fail(start, "a text without its closing quote: " + shorten(line_from(start)),
-                  "a \" at its end");
-    }
-    ++at_;
-    const std::string_view text = text_.substr(start, at_ - start);
-    check_encoding(start, text);
-    last_text_ = text;
-    if (!wants_key()) return after_value();
-    value_end_ = at_;
-    next_ = Next::colon;
-  }
-
-  /// Checks the character of a text at `at_`; an escape's second character is skipped.
-  void check_character() {
-    const auto byte = static_cast<unsigned char>(text_[at_]);
-    constexpr unsigned char kFirstPrinted = 0x20;
-    if (byte == '\t') return fail(at_, "a tab inside of a text", "\\t");
-    if (byte < kFirstPrinted) {
-      return fail(at_, fmt::format("the control character {:#04x} inside of a text", byte),
-                  fmt::format("\\u{:04x}", byte));
-    }
-    if (byte != '\\' || at_ + 1 >= text_.size()) return;
-    if (!is_escape(text_.substr(at_ + 1))) {
-      return fail(at_, "the unknown escape " + shorten(text_.substr(at_, 2)),
-                  R"(\\ for a backslash)");
-    }
-    ++at_;
-  }
-
-  void check_encoding(std::size_t start, std::string_view text) {
-    if (!is_utf8(text)) fail(start, "a text with bytes that are not UTF-8", "a file in UTF-8");
-  }
-
-  void read_word() {
-    const std::string_view word = word_from(at_);
-    const bool is_value = word == "true" || word == "false" || word == "null" || is_number(word);
-    if (!is_value) return fail(at_, shorten(word), meant_by(word));
-    at_ += word.size();
-    after_value();
-  }
-
-  /// The word of JSON that is meant, or the form that is expected.
-  static std::string meant_by(std::string_view word) {
-    const std::string small = lower_case(word);
-    if (small == "true" || small == "false" || small == "null") return small;
-    if (small == "none" || small == "nil" || small == "undefined") return "null";
-    if (small == "yes" || small == "on") return "true";
-    if (small == "no" || small == "off") return "false";
-    const std::size_t sign = small.find_first_not_of("+-");
-    const std::string bare = sign == std::string::npos ? "" : small.substr(sign);
-    if (bare == "nan" || bare == "inf" || bare == "infinity") {
-      return "a number: JSON has neither NaN nor Infinity";
-    }
-    const bool is_like_number = !bare.empty() && (is_digit(bare[0]) || bare[0] == '.');
-    if (!is_like_number) return "a value; texts are in double quotes";
-    return "a number as 12, -0.5 or 1e3: no +, no leading 0, digits before and after the point";
-  }
-
-  std::string_view word_from(std::size_t start) const {
-    std::size_t end = start;
-    while (end < text_.size() && is_word(text_[end])) ++end;
-    if (end > start) return text_.substr(start, end - start);
-    while (end < text_.size() && !is_space(text_[end]) && text_[end] != ',') ++end;
-    return text_.substr(start, end - start);
-  }
-
-  std::string_view line_from(std::size_t start) const {
-    return text_.substr(start, text_.find_first_of("\r\n", start) - start);
+    return {};
   }
 
   std::string_view text_;
   std::size_t at_ = 0;
   Next next_ = Next::value;
-  char last_ = 0;               ///< what was read last: a bracket, ',', ':' or 'v' for a value
   std::size_t comma_ = 0;       ///< the last comma
   std::size_t value_end_ = 0;   ///< of the last value or name
   std::string_view last_text_;  ///< in its quotes
   std::vector<Bracket> open_;
-  std::optional<Fault> fault_;
 };
 
 /// The encoding that the first bytes are of, or an empty text for UTF-8.
@@ -346,7 +341,7 @@ Problem json_fault(std::string_view text, std::string_view what) {
   if (const std::string_view encoding = other_encoding(text); !encoding.empty()) {
     return {"", "", fmt::format("a {} in {}", what, encoding), "valid JSON in UTF-8"};
   }
-  const std::optional<Fault> fault = FaultFinder(text).find();
+  const PossibleFault fault = FaultFinder(text).find();
   if (!fault) return {};
   return {"", text_position(text, fault->byte), fault->found, fault->expected};
 }

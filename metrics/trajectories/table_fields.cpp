@@ -1,11 +1,14 @@
 #include "metrics/trajectories/table_fields.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
 #include <string>
 
+#include "base/error.h"
 #include "base/text/words.h"
 #include "metrics/trajectories/number_in.h"
 
@@ -161,6 +164,26 @@ std::optional<FieldNumber> field_time(std::string_view field) {
   const auto time = clock_time(field);
   if (!time) return std::nullopt;
   return FieldNumber{days_s + *time, 0};
+}
+
+void TableLine::reject(const std::string& found, const std::string& expected) const {
+  throw InputError({file, fmt::format("line {}", number), found, expected});
+}
+
+double TableNumbers::read(std::string_view field, const TableLine& line) {
+  const auto value = field_number(field);
+  if (!value) line.reject(shown(field), "a number");
+  note_decimal(value->decimal, line);
+  return value->value;
+}
+
+void TableNumbers::note_decimal(char decimal, const TableLine& line) {
+  if (decimal == 0 || decimal == decimal_) return;
+  if (decimal_ != 0) {
+    line.reject(fmt::format("a number with '{}', after numbers with '{}'", decimal, decimal_),
+                "the same decimal separator throughout, and none of thousands");
+  }
+  decimal_ = decimal;
 }
 
 }  // namespace throng::metrics

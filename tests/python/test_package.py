@@ -67,7 +67,7 @@ class Package(unittest.TestCase):
                 wheel.extractall(self.folder / "installed")
         self.assertEqual(wheels["direct"], wheels["from the archive"])
         sources = (PACKAGE / "throng").rglob("*.py")
-        modules = {str(path.relative_to(PACKAGE)) for path in sources} | {"throng/py.typed"}
+        modules = {str(path.relative_to(PACKAGE)) for path in sources} | {"throng/py.typed", "throng/layouts.json"}
         self.assertEqual({name for name in wheels["direct"] if name.startswith("throng/")}, modules)
         license = (common.ROOT / "LICENSE").read_bytes()
         self.assertIn(license, [text for name, text in wheels["direct"].items() if name.endswith("/LICENSE")])
