@@ -9,18 +9,16 @@
 
 #include "annotate/ground_polygon.h"
 #include "annotate/people/exit_view.h"
+#include "spec/annotate/outlines.h"
 
 namespace throng::annotate {
 
 namespace {
 
-/// Sides that stand for a circle.
-constexpr int kCircleSides = 48;
-
 std::vector<Eigen::Vector2d> circle(const Eigen::Vector2d& center, double radius_m) {
   std::vector<Eigen::Vector2d> corners;
-  for (int i = 0; i < kCircleSides; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kCircleSides;
+  for (int i = 0; i < kHazardSides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kHazardSides;
     corners.emplace_back(center + radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   return with_short_sides(corners);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "spec/annotate/outlines.h"
+
 namespace throng::formats {
 
 using nlohmann::json;
@@ -37,7 +39,7 @@ Eigen::AlignedBox2d amodal_limit(const Image& image) {
   const Eigen::Vector2d size(image.width, image.height);
   const bool is_pinhole =
       image.record.value("camera", json::object()).value("model", "pinhole") == "pinhole";
-  const double share = is_pinhole ? 1 : 0.25;
+  const double share = is_pinhole ? 1 : 1.0 / annotate::kLensMarginDivisor;
   return {-share * size, (1 + share) * size};
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/compute/parallel.h"
 #include "base/error.h"
+#include "spec/annotate/outlines.h"
 
 namespace throng::render {
 
@@ -123,9 +124,9 @@ Eigen::Vector2f wide_position(const camera::Intrinsics& wide, const Vector2d& di
 /// Counts the nearest wide pixel of every pixel of the image and of what is around these rows.
 PixelWeights pixel_weights(const camera::Intrinsics& lens, const Rows& rows,
                            const camera::Intrinsics& wide) {
-  const int beside = lens.width / 4;
-  const int above = rows.first == 0 ? lens.height / 4 : 0;
-  const int below = rows.end == lens.height ? lens.height / 4 : 0;
+  const int beside = lens.width / annotate::kLensMarginDivisor;
+  const int above = rows.first == 0 ? lens.height / annotate::kLensMarginDivisor : 0;
+  const int below = rows.end == lens.height ? lens.height / annotate::kLensMarginDivisor : 0;
   const Eigen::AlignedBox2i area(Eigen::Vector2i(-beside, rows.first - above),
                                  Eigen::Vector2i(lens.width + beside, rows.end + below));
   const Eigen::Vector2i size(wide.width, wide.height);

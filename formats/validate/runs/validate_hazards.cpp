@@ -9,6 +9,7 @@
 #include "formats/dataset/image_camera.h"
 #include "formats/files/json_vectors.h"
 #include "formats/validate/run_checks.h"
+#include "spec/annotate/outlines.h"
 #include "world/disasters.h"
 
 namespace throng::formats {
@@ -48,8 +49,7 @@ bool is_circle(const Image& image, const json& hazard) {
                         (std::max(height_m, 1.0) * camera.intrinsics.fx_px);
     ++corners;
     // A polygon stands for the circle: the middles of its sides are within it.
-    constexpr int kSides = 48;
-    const double sagitta_m = radius_m * (1 - std::cos(std::numbers::pi / kSides));
+    const double sagitta_m = radius_m * (1 - std::cos(std::numbers::pi / annotate::kHazardSides));
     const double beyond_m = (*ground - center).norm() - radius_m;
     const double slack_m = 0.03 + 0.05 * px_m;
     off += beyond_m > slack_m || beyond_m < -slack_m - sagitta_m ? 1 : 0;
