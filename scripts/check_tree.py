@@ -24,6 +24,7 @@ RULES = [
     ("crowd/models/ttc_posterior.csv", 64),
     ("base/schemas/*.schema.json", 64),
     ("spec/*.json", 96),
+    ("python/throng/layouts.json", 16),
     ("skinning/assets/*.json", 16),
     ("server/throng.service", 8),
     ("python/throng/*.py", 48),

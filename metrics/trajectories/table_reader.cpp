@@ -32,7 +32,7 @@ bool is_missing(std::string_view field) {
   return word.empty() || word == "nan" || word == "na" || word == "null";
 }
 
-/// What a table says before its rows.
+/// The statements of a table before its rows.
 struct TableHead {
   enum class Next : std::uint8_t { names, units, rows };
 

@@ -11,14 +11,14 @@ struct BalanceParameters {
   int max_batch = 50;           ///< people led at once
   double decide_every_s = 0.5;
 
-  // Whom a beacon reaches, and who counts as what.
+  // People within reach of a beacon, at rest and at a door.
   double reach_m = 6;  ///< of the beacon
   double stands_mps = 0.3;
   double at_door_m = 5;  ///< nearer people count as out
 
   // Trips.
   double min_saving_s = 15;  ///< people times seconds that a trip must save
-  double idle_s = 40;        ///< lost by each who stands about and is not fetched
+  double idle_s = 40;        ///< lost by each person who is idle and is not fetched
   double half_worth_s = 20;  ///< a trip that takes so long is worth half
   double abandoned_m = 3;    ///< people who did not come with the drone are left alone ...
   double abandoned_s = 40;   ///< ... for this time
