@@ -123,6 +123,30 @@ bool keeps_words(const json& value, const ordered_json& rules) {
          std::any_of(words->begin(), words->end(), [&](const json& word) { return word == value; });
 }
 
+bool keeps_rules(const json& value, const ordered_json& rules) {
+  return keeps_type(value, rules.at("type")) && keeps_words(value, rules) &&
+         keeps_range(value, rules);
+}
+
+/// Checks the elements of a list; those with fields of their own are read by a table.
+bool check_elements(const json& list, const ordered_json& rules, const FieldLocation& place) {
+  const auto items = rules.find("items");
+  if (items == rules.end() || !items->contains("type") || items->contains("properties")) {
+    return true;
+  }
+  bool is_valid = true;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const FieldLocation element = place.below(i);
+    if (!keeps_rules(list[i], *items)) {
+      element.reject(describe(list[i]), expectation(*items));
+      is_valid = false;
+    } else if (list[i].is_array()) {
+      is_valid = check_elements(list[i], *items, element) && is_valid;
+    }
+  }
+  return is_valid;
+}
+
 /// The part of a path after its last '/'.
 std::string name_in(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -147,7 +171,8 @@ void check_names(const json& object, const std::string& path,
   for (const auto& [name, value] : object.items()) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     if (std::find(deprecated.begin(), deprecated.end(), name) != deprecated.end()) continue;
-    const std::string below = path.empty() ? name : path + "/" + name;
+    const std::string key = (json::json_pointer() / name).to_string().substr(1);
+    const std::string below = path.empty() ? key : path + "/" + key;
     place.problems.push_back(
         unknown_name(place.source, place.below(below).pointer, "field", name, names));
   }
@@ -171,15 +196,24 @@ bool FieldLocation::allows_deprecated(const FieldRules& field, bool is_also_give
   return true;
 }
 
+void FieldLocation::reject(std::string found, std::string expected) const {
+  problems.push_back({source, pointer, std::move(found), std::move(expected)});
+}
+
+bool FieldLocation::has_problem(std::string_view path) const {
+  const std::string whole = fmt::format("{}/{}", pointer, path);
+  return std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
+    return problem.where == whole || problem.where.starts_with(whole + "/");
+  });
+}
+
 bool check_value(const json& value, const FieldRules& field, const FieldLocation& place) {
   const ordered_json& rules = field.values.rules;
-  if (keeps_type(value, rules.at("type")) && keeps_words(value, rules) &&
-      keeps_range(value, rules)) {
-    return true;
+  if (!keeps_rules(value, rules)) {
+    place.reject(describe(value), describe_expected(field));
+    return false;
   }
-  place.problems.push_back(
-      {place.source, place.pointer, describe(value), describe_expected(field)});
-  return false;
+  return !value.is_array() || check_elements(value, rules, place);
 }
 
 bool check_object(const json& value, std::span<const FieldRules* const> fields,

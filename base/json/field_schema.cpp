@@ -15,7 +15,9 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json field_rules(const FieldRules& field) {
-  ordered_json rules = {{"title", field.title}, {"description", field.help}};
+  ordered_json rules;
+  if (!field.title.empty()) rules["title"] = field.title;
+  rules["description"] = field.help;
   for (const auto& [key, value] : field.values.rules.items()) {
     // An object's own default precedes its fields.
     if (key == "properties" && !field.default_value.is_null()) {
@@ -42,11 +44,11 @@ ordered_json field_rules(const FieldRules& field) {
 }
 
 ordered_json rules_of_group(const FieldRules& group) {
-  ordered_json rules = {{"title", group.title},
-                        {"description", group.help},
-                        {"type", "object"},
-                        {"additionalProperties", false}};
-  if (!group.values.rules.is_null()) rules["required"] = group.values.rules;
+  ordered_json rules;
+  if (!group.title.empty()) rules["title"] = group.title;
+  rules["description"] = group.help;
+  rules["type"] = "object";
+  rules["additionalProperties"] = false;
   if (!group.default_value.is_null()) rules["default"] = group.default_value;
   rules["properties"] = ordered_json::object();
   return rules;
@@ -88,29 +90,46 @@ ordered_json schema_for(std::span<const FieldRules* const> fields) {
   ordered_json schema = {{"additionalProperties", false}};
   ordered_json required = ordered_json::array();
   for (const FieldRules* field : fields) {
-    if (field->is_required) required.push_back(field->path);
+    if (!field->is_required || field->path.find('/') != std::string::npos) continue;
+    if (field->deprecated_name.empty()) {
+      required.push_back(field->path);
+    } else {
+      schema["anyOf"] = {{{"required", {field->path}}}, {{"required", {field->deprecated_name}}}};
+    }
   }
   if (!required.empty()) schema["required"] = std::move(required);
   ordered_json& properties = schema["properties"] = ordered_json::object();
   for (const FieldRules* field : fields) {
     ordered_json* parent = &properties;
+    ordered_json* group = nullptr;
     std::string_view path = field->path;
     for (auto end = path.find('/'); end != std::string_view::npos; end = path.find('/')) {
       const std::string name(path.substr(0, end));
       check(parent->contains(name), "a group comes before its fields");
-      parent = &(*parent)[name]["properties"];
+      group = &(*parent)[name];
+      parent = &(*group)["properties"];
       path.remove_prefix(end + 1);
     }
+    if (group != nullptr && field->is_required) (*group)["required"].push_back(path);
     (*parent)[std::string(path)] = field->is_group ? rules_of_group(*field) : field_rules(*field);
     if (field->deprecated_name.empty()) continue;
-    check(!field->is_required && field->sampling == Sampling::never,
-          "a renamed field is a plain one");
+    check(field->sampling == Sampling::never, "a renamed field is a plain one");
     ordered_json old = field_rules(*field);
     old["description"] = fmt::format("Deprecated: use {}.", path);
     old["deprecated"] = true;
     old["x-renamed-to"] = path;
     (*parent)[field->deprecated_name] = std::move(old);
   }
+  return schema;
+}
+
+ordered_json document_schema(const std::string& title, const std::string& description,
+                             const ordered_json& fields) {
+  ordered_json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                         {"title", title},
+                         {"description", description},
+                         {"type", "object"}};
+  schema.update(fields);
   return schema;
 }
 

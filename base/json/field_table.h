@@ -148,10 +148,23 @@ class FieldTable {
   }
 
   /// Adds a field that is read but never printed.
-  Field<Object>& add_read(std::string path, Values values, Set set) {
+  Field<Object>& add_read(std::string path, Values values, Set set, std::string help = "") {
     return add(
         std::move(path), "", "", std::move(values), [](const Object&) { return nlohmann::json(); },
-        std::move(set), "");
+        std::move(set), std::move(help));
+  }
+
+  /// Adds a field that is checked, but has no meaning for the program.
+  Field<Object>& add_ignored(std::string path, Values values, std::string help) {
+    return add_read(
+        std::move(path), std::move(values),
+        [](Object&, const nlohmann::json&, const FieldLocation&) {}, std::move(help));
+  }
+
+  /// Adds the field with which a file names its schema.
+  Field<Object>& add_schema_name() {
+    return add_ignored("$schema", raw({{"type", "string"}}),
+                       "The schema that an editor completes and checks with.");
   }
 
   /// Adds a field for an enumeration, written as one of `words` in the order of its values.
@@ -169,6 +182,22 @@ class FieldTable {
           for (std::size_t i = 0; i < words.size(); ++i) {
             if (word == words.at(i)) access(object) = static_cast<Enum>(i);
           }
+        },
+        std::move(help));
+  }
+
+  /// Adds an object with fields of its own that may be missing, in which case it stays empty.
+  template <typename Part, typename Access>
+  Field<Object>& add_object(std::string path, const FieldTable<Part>& part, Access access,
+                            std::string help) {
+    return add(
+        std::move(path), "", "", object_with(part.schema()),
+        [&part, access](const Object& object) {
+          const std::optional<Part>& value = access(object);
+          return value ? part.print(*value) : nlohmann::json();
+        },
+        [&part, access](Object& object, const nlohmann::json& value, const FieldLocation& place) {
+          part.read_checked(value, access(object).emplace(), place);
         },
         std::move(help));
   }

@@ -7,7 +7,6 @@ extern const std::string_view kScenarioSchema;
 extern const std::string_view kBlueprintSchema;
 extern const std::string_view kStudySchema;
 extern const std::string_view kAirframeSchema;
-extern const std::string_view kCharacterSchema;
 extern const std::string_view kCameraSchema;
 extern const std::string_view kExperimentsSchema;
 }  // namespace throng::embedded
@@ -25,13 +24,12 @@ const JsonSchema& compiled() {
 
 }  // namespace
 
-const std::array<Entry, 7>& entries() {
-  static const std::array<Entry, 7> all = {{
+const std::array<Entry, 6>& entries() {
+  static const std::array<Entry, 6> all = {{
       {Kind::scenario, "scenario", embedded::kScenarioSchema},
       {Kind::blueprint, "blueprint", embedded::kBlueprintSchema},
       {Kind::study, "study", embedded::kStudySchema},
       {Kind::airframe, "airframe", embedded::kAirframeSchema},
-      {Kind::character, "character", embedded::kCharacterSchema},
       {Kind::camera, "camera", embedded::kCameraSchema},
       {Kind::experiments, "experiments", embedded::kExperimentsSchema},
   }};
@@ -48,8 +46,6 @@ const JsonSchema& schema_for(Kind kind) {
       return compiled<Kind::study>();
     case Kind::airframe:
       return compiled<Kind::airframe>();
-    case Kind::character:
-      return compiled<Kind::character>();
     case Kind::camera:
       return compiled<Kind::camera>();
     case Kind::experiments:

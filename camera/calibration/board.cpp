@@ -21,11 +21,6 @@ namespace throng::calibrate {
 
 namespace {
 
-constexpr std::array kKinds = {"chessboard", "charuco", "circles"};
-constexpr std::array kDictionaries = {
-    "4X4_50",  "4X4_100",  "4X4_250", "4X4_1000", "5X5_50",        "5X5_100",
-    "5X5_250", "5X5_1000", "6X6_50",  "6X6_100",  "6X6_250",       "6X6_1000",
-    "7X7_50",  "7X7_100",  "7X7_250", "7X7_1000", "ARUCO_ORIGINAL"};
 /// Images are searched at most this large; corners are refined in the whole image.
 constexpr int kSearchSide = 1400;
 
@@ -153,7 +148,7 @@ std::variant<View, Problem> find_circles(const cv::Mat& image, const Board& boar
 cv::Ptr<cv::aruco::Dictionary> marker_dictionary(const Board& board) {
   const auto* found = std::find(kDictionaries.begin(), kDictionaries.end(), board.dictionary);
   check(found != kDictionaries.end(), "boards are checked before they are looked for");
-  // OpenCV numbers them in the order of the list above.
+  // OpenCV numbers them in this order.
   return cv::aruco::getPredefinedDictionary(static_cast<int>(found - kDictionaries.begin()));
 }
 
@@ -226,27 +221,14 @@ ImageSize most_frequent(const std::vector<ImageSize>& sizes) {
 
 }  // namespace
 
-std::string_view to_string(Board::Kind kind) { return kKinds.at(static_cast<std::size_t>(kind)); }
-
-Board::Kind board_kind_named(std::string_view name, const std::string& source) {
-  const auto* found = std::find(kKinds.begin(), kKinds.end(), name);
-  if (found == kKinds.end()) {
-    throw InputError(Problem{source, "", fmt::format("\"{}\"", name),
-                             fmt::format("one of: {}", fmt::join(kKinds, ", "))});
-  }
-  return static_cast<Board::Kind>(found - kKinds.begin());
-}
-
 void check_board(const Board& board, const std::string& source) {
-  constexpr int kMinCorners = 3;
-  constexpr int kMaxCorners = 100;
   const auto refuse = [&](std::string found, std::string expected) {
     throw InputError(Problem{source, "", std::move(found), std::move(expected)});
   };
-  if (std::min(board.columns, board.rows) < kMinCorners ||
-      std::max(board.columns, board.rows) > kMaxCorners) {
+  if (std::min(board.columns, board.rows) < kMinBoardSide ||
+      std::max(board.columns, board.rows) > kMaxBoardSide) {
     refuse(fmt::format("a board of {} x {}", board.columns, board.rows),
-           fmt::format("{} to {} columns and rows", kMinCorners, kMaxCorners));
+           fmt::format("{} to {} columns and rows", kMinBoardSide, kMaxBoardSide));
   }
   if (!(board.square > 0) || !(board.marker >= 0 && board.marker < board.square)) {
     refuse(fmt::format("squares of {} with markers of {}", board.square, board.marker),

@@ -5,33 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "base/graphics/images/gray_image.h"
 #include "camera/calibration/correspondences.h"
+#include "spec/calibration/board.h"
 
 namespace throng::calibrate {
-
-/// A calibration board.
-struct Board {
-  enum class Kind { chessboard, charuco, circles };
-  Kind kind = Kind::chessboard;
-  /// Number of inner corners of a chessboard, of squares of a ChArUco board, of circles of a grid
-  /// (every other row of which is shifted by half the distance of its circles).
-  int columns = 9;
-  int rows = 6;
-  /// Side of a square, or half the distance between neighboring circles of a row. Its unit is the
-  /// unit of the estimated translations.
-  double square = 1;
-  double marker = 0;  ///< ChArUco: side of a marker, in the unit of `square`; 0: 0.75 squares
-  std::string dictionary = "4X4_50";  ///< ChArUco: OpenCV's name without DICT_
-};
-
-std::string_view to_string(Board::Kind kind);
-/// The inverse of to_string(). Throws InputError naming `source` for any other word.
-Board::Kind board_kind_named(std::string_view name, const std::string& source);
 
 /// Throws InputError naming `source` if the board is impossible: too small, or with an unknown
 /// dictionary.

@@ -3,15 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "base/files/files.h"
 #include "base/graphics/images/gray_image.h"
-#include "base/json/field_table.h"
-#include "base/json/json_describe.h"
 #include "base/json/json_text.h"
+#include "camera/calibration/board.h"
+#include "camera/calibration/intrinsics.h"
 #include "camera/calibration/pose.h"
 #include "camera/calibration/residual_plot.h"
 #include "camera/calibration/result.h"
@@ -23,178 +23,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-constexpr std::array kRequestKinds = {"intrinsics", "pose", "bundle"};
-
-using fields::at;
-using fields::FieldLocation;
-using fields::FieldTable;
-using fields::raw;
-
-/// A request, and where its files lie.
-struct ReadRequest {
-  Request request;
-  fs::path folder;
-};
-
-/// A file of the request, which must be one of those that came with it.
-fs::path resolve_path(const json& value, const fs::path& folder, const FieldLocation& place) {
-  if (value.is_string()) {
-    const fs::path name = value.get<std::string>();
-    const bool plain = name == name.filename() && !name.empty() && name != "." && name != "..";
-    if (plain && fs::is_regular_file(folder / name)) return folder / name;
-  }
-  place.problems.push_back(
-      {place.source, place.pointer, describe(value), "the name of a file that was sent along"});
-  return {};
-}
-
-/// Runs a reader that throws; its problems are the field's.
-template <typename Read>
-void collect(const FieldLocation& place, const Read& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    place.problems.insert(place.problems.end(), error.problems().begin(), error.problems().end());
-  }
-}
-
-fields::Values text() { return raw({{"type", "string"}}); }
-fields::Values number() { return raw({{"type", "number"}}); }
-fields::Values number_above_0() { return raw({{"type", "number"}, {"exclusiveMinimum", 0}}); }
-fields::Values number_from_0() { return raw({{"type", "number"}, {"minimum", 0}}); }
-
-void add_file(FieldTable<ReadRequest>& table, const char* path, fs::path Request::*member) {
-  table.add_read(path, text(),
-                 [member](ReadRequest& read, const json& value, const FieldLocation& place) {
-                   read.request.*member = resolve_path(value, read.folder, place);
-                 });
-}
-
-FieldTable<Board> make_board_fields() {
-  FieldTable<Board> table;
-  table.add_read("kind", fields::one_of_words(std::array{"chessboard", "charuco", "circles"}),
-                 [](Board& board, const json& value, const FieldLocation& place) {
-                   board.kind = board_kind_named(value.get<std::string>(), place.pointer);
-                 });
-  table.add("columns", "", "", fields::integers(3, 100), at(&Board::columns), "");
-  table.add("rows", "", "", fields::integers(3, 100), at(&Board::rows), "");
-  table.add("square", "", "", number_above_0(), at(&Board::square), "");
-  table.add("marker", "", "", number_from_0(), at(&Board::marker), "");
-  table.add("dictionary", "", "", text(), at(&Board::dictionary), "");
-  return table;
-}
-
-void set_board(ReadRequest& read, const json& value, const FieldLocation& place) {
-  static const FieldTable<Board> table = make_board_fields();
-  const std::size_t before = place.problems.size();
-  table.read_checked(value, read.request.board, place);
-  if (place.problems.size() > before) return;
-  collect(place, [&] { check_board(read.request.board, place.pointer); });
-}
-
-void set_images(ReadRequest& read, const json& value, const FieldLocation& place) {
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    read.request.images.push_back(
-        resolve_path(value[i], read.folder, place.below(std::to_string(i))));
-  }
-}
-
-Wishes& wishes_in(ReadRequest& read) { return read.request.options.wishes; }
-
-void set_fixed(ReadRequest& read, const json& value, const FieldLocation& place) {
-  for (const auto& [name, fixed] : value.items()) {
-    if (fixed.is_null() || fixed.is_number()) {
-      wishes_in(read).fixed[name] =
-          fixed.is_null() ? std::nullopt : std::optional(fixed.get<double>());
-    } else {
-      place.problems.push_back(
-          {place.source, place.below(name).pointer, describe(fixed), "a number or null"});
-    }
-  }
-}
-
-void set_ties(ReadRequest& read, const json& value, const FieldLocation& place) {
-  static const FieldTable<Tie> table = [] {
-    FieldTable<Tie> fields;
-    fields.add("to", "", "", text(), at(&Tie::to), "").required();
-    fields.add("ratio", "", "", number(), at(&Tie::ratio), "");
-    return fields;
-  }();
-  for (const auto& [name, tie] : value.items()) {
-    table.read_checked(tie, wishes_in(read).tied[name], place.below(name));
-  }
-}
-
-void set_priors(ReadRequest& read, const json& value, const FieldLocation& place) {
-  static const FieldTable<Prior> table = [] {
-    FieldTable<Prior> fields;
-    fields.add("mean", "", "", number(), at(&Prior::mean), "").required();
-    fields.add("sd", "", "", number_above_0(), at(&Prior::sd), "").required();
-    return fields;
-  }();
-  for (const auto& [name, prior] : value.items()) {
-    table.read_checked(prior, wishes_in(read).priors[name], place.below(name));
-  }
-}
-
-void set_lens(ReadRequest& read, const json& value, const FieldLocation& place) {
-  IntrinsicsOptions& options = read.request.options;
-  options.choose_lens = value == "auto";
-  if (options.choose_lens) return;
-  options.lens = lens_named(value.get<std::string>(), place.pointer);
-}
-
-void add_inputs(FieldTable<ReadRequest>& table) {
-  table.add_read("name", text(), [](ReadRequest&, const json&, const FieldLocation&) {});
-  table.add("kind", "", "", fields::one_of_words(kRequestKinds),
-            at(&ReadRequest::request, &Request::kind), "");
-  table.add_read("images", raw({{"type", "array"}}, "a list of files"), set_images);
-  table.add_read("board", raw({{"type", "object"}}, "an object: kind, columns, rows, square"),
-                 set_board);
-  add_file(table, "points", &Request::points);
-  add_file(table, "observations", &Request::observations);
-  add_file(table, "gcp", &Request::control_points);
-  add_file(table, "camera", &Request::camera);
-  table.add_read("size", text(),
-                 [](ReadRequest& read, const json& value, const FieldLocation& place) {
-                   collect(place, [&] {
-                     read.request.size = parse_image_size(value.get<std::string>(), place.pointer);
-                   });
-                 });
-}
-
-void add_options(FieldTable<ReadRequest>& table) {
-  const auto by_parameter = [] { return raw({{"type", "object"}}, "an object by parameter"); };
-  const auto fit = [](auto member) {
-    return at(&ReadRequest::request, &Request::options, &IntrinsicsOptions::fit, member);
-  };
-  std::vector<std::string> lenses{"auto"};
-  for (const Lens lens : kLenses) lenses.emplace_back(to_string(lens));
-  table.add_read("lens", fields::one_of_words(lenses), set_lens);
-  table.add("fix_lens", "", "", fields::booleans(), at(&ReadRequest::request, &Request::fix_lens),
-            "");
-  table.add("skew", "", "", fields::booleans(),
-            at(&ReadRequest::request, &Request::options, &IntrinsicsOptions::wishes, &Wishes::skew),
-            "");
-  table.add_read("fix", by_parameter(), set_fixed);
-  table.add_read("tie", by_parameter(), set_ties);
-  table.add_read("prior", by_parameter(), set_priors);
-  table.add("reject", "", "", fields::booleans(), fit(&FitOptions::reject), "");
-  table.add("outlier_px", "", "px", number_from_0(), fit(&FitOptions::outlier_px), "");
-  table.add("loss_px", "", "px", number_from_0(), fit(&FitOptions::loss_px), "");
-  table.add("sigma_px", "", "px", number_above_0(), fit(&FitOptions::sigma_px), "");
-}
-
-const FieldTable<ReadRequest>& request_fields() {
-  static const FieldTable<ReadRequest> table = [] {
-    FieldTable<ReadRequest> fields;
-    add_inputs(fields);
-    add_options(fields);
-    return fields;
-  }();
-  return table;
-}
 
 /// Required fields of the kind that are missing.
 void require_inputs(const Request& request, const std::string& source) {
@@ -269,19 +97,12 @@ Result named_as_sent(Result result, const fs::path& folder) {
 }  // namespace
 
 Request request_from_json(const json& value, const fs::path& folder) {
-  ReadRequest read;
-  read.folder = folder;
-  IntrinsicsOptions& options = read.request.options;
-  options.source = "request";
-  options.lens = Lens::brown5;
-  options.fit.reject = true;
-  options.fit.loss_px = 0;
-  const std::string no_source;
   std::vector<Problem> problems;
-  request_fields().read_checked(value, read, {"", no_source, problems});
+  Request request = read_request_fields(value, folder, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
-  require_inputs(read.request, "request");
-  return std::move(read.request);
+  check_board(request.board, "/board");
+  require_inputs(request, "request");
+  return request;
 }
 
 std::int64_t max_image_pixels(const Request& request) {

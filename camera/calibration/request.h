@@ -5,32 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "camera/calibration/board.h"
 #include "camera/calibration/calibration.h"
 #include "camera/calibration/correspondences.h"
-#include "camera/calibration/intrinsics.h"
+#include "spec/calibration/request.h"
 #include "spec/calibration/request_files.h"
 
 namespace throng::calibrate {
-
-/// A calibration with its input files and options.
-struct Request {
-  std::string kind = "intrinsics";            ///< "intrinsics", "pose" or "bundle"
-  std::vector<std::filesystem::path> images;  ///< intrinsics: images of a board
-  Board board;
-  std::filesystem::path points;          ///< intrinsics, instead of images: table image,i,X,Y,Z,u,v
-  std::filesystem::path observations;    ///< pose, bundle: table image,point,u,v
-  std::filesystem::path control_points;  ///< pose, bundle: table point,X,Y,Z[,sd]
-  std::optional<ImageSize> size;         ///< size of the images to which the tables refer
-  /// File of a camera (spec/calibration/camera_file.h). pose: the lens; bundle: its initial values.
-  std::filesystem::path camera;
-  bool fix_lens = false;  ///< bundle: do not estimate the lens
-  IntrinsicsOptions options;
-};
 
 /// Reads a client's request; its paths are relative to `folder`. Throws InputError with JSON
 /// pointers.

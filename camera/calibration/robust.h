@@ -7,24 +7,9 @@
 #include <vector>
 
 #include "camera/calibration/adjustment.h"
+#include "spec/calibration/options.h"
 
 namespace throng::calibrate {
-
-/// Options of fit().
-struct FitOptions {
-  /// Whether observations are rejected whose residual exceeds both kOutlierSigmas robust standard
-  /// deviations and outlier_px.
-  bool reject = true;
-  /// Residuals up to this length are never rejected: they come from blurred corners rather than
-  /// mistakes, and results then agree with programs that do not detect outliers.
-  double outlier_px = 4;
-  /// Scale (px) of Cauchy's loss in the final solution; 0: plain least squares, as in other
-  /// programs.
-  double loss_px = 0;
-  /// Standard deviation of pixel coordinates; nothing: estimated from the residuals.
-  std::optional<double> sigma_px;
-  std::function<bool()> should_continue = {};  ///< as in SolveOptions
-};
 
 /// Max residual of an inlier, in robust standard deviations.
 inline constexpr double kOutlierSigmas = 6;

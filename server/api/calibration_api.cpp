@@ -95,7 +95,7 @@ void submit_calibration(Calibrations& calibrations, Housekeeping& housekeeping,
 
 void list_calibrations(JobQueue& queue, Housekeeping& housekeeping, AnswerBudget& answers,
                        const Caller& caller, const Request& request, Response& response) {
-  static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
+  static const json kSchema = calibrate::request_schema();
   const jobs::JobFilter filter{.kind = jobs::JobKind::calibration,
                                .after = cursor_from_request(request),
                                .limit = requested_limit(request),

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "skinning/bake/workbench.h"
-#include "skinning/import/description.h"
+#include "spec/skinning/character_description.h"
 
 namespace throng::skinning {
 

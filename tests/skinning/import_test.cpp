@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "skinning/image.h"
-#include "skinning/import/description.h"
+#include "spec/skinning/character_description.h"
 #include "skinning/levels.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 bool schema_takes(const json& request) {
-  const json document = json::parse(request_schema());
+  const json document = json(request_schema());
   valijson::Schema schema;
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(document),
                                           schema);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -35,5 +36,8 @@ struct CharacterDescription {
 /// Reads and checks a description; its paths are relative to its folder. Throws InputError with all
 /// problems and their JSON pointers.
 CharacterDescription read_description(const std::filesystem::path& file);
+
+/// The JSON Schema of a description.
+nlohmann::ordered_json character_schema();
 
 }  // namespace throng::skinning
