@@ -8,8 +8,9 @@ The first table, sizes, has the figures of the committed docs/reference/structur
 compiling costs (scripts/compile_cost.py, some minutes on an idle machine); without it the committed figures stay. Modules that
 grew by more than a tenth are named on stderr: the commit's message says why.
 
-Then come a table of figures with a row per top-level folder with C++ sources, one of the headers that cost most, and one of the
-folders of modules. Columns of figures:
+Then come a table of figures with a row per top-level folder with C++ sources, one of the headers that cost most, one of the classes
+with more than 15 members, and one of the folders of modules. Members are variables and functions, constructors included; destructors
+and what is deleted or defaulted are left out. Columns of figures:
   .cpp, .h    number of files, each with its lines in the next column
   public      headers that the modules in the folder declare as PUBLIC
   folders     that hold them, and the files of the largest
@@ -63,6 +64,10 @@ FUNCTION = re.compile(
     r"(?::\s*[\w:]+[({].*)?\{\s*$"
 )
 
+# Declarations in a class that are not counted as members.
+NO_MEMBER = re.compile(r"^\s*(using|friend|struct|class|enum|static_assert)\b|=\s*(delete|default)|~")
+MAX_MEMBERS = 15
+
 
 def language_findings(path, text):
     """Number of findings of scripts/check_language.py."""
@@ -96,6 +101,31 @@ def function_lengths(text):
                 if is_function:
                     lengths.append(number - first + 1)
     return lengths
+
+
+def member_counts(text):
+    """{name: number of members} of the classes in a file."""
+    text, counts = SKIPPED.sub("", text), {}
+    # From the innermost braces outwards, so that only declarations of its own are left of a class's body.
+    while block := re.search(r"(?:\bclass\s+(\w+)(?: final)?(?:\s*:[^:;{}()][^;{}()]*)?\s*)?\{([^{}]*)\}", text):
+        before = text[: block.start()]
+        if block[1]:
+            declarations = re.split("[;\0]", re.sub(r"\b(public|private|protected):(?!:)", "", block[2]))
+            counts[block[1]] = sum(bool(d.strip()) and not NO_MEMBER.search(d) for d in declarations)
+        is_body = not block[1] and re.search(r"[)}][\w\s]*$|->[^;]*$", before)
+        text = before + ("\0" if is_body else "") + text[block.end() :]
+    return counts
+
+
+def large_classes(root):
+    """Rows of the classes with most members: module, and its classes."""
+    found = collections.defaultdict(list)
+    for path in git_files(root):
+        if path.split("/")[0] not in APART:
+            counts = member_counts((root / path).read_text(errors="replace", encoding="utf-8"))
+            found[path.split("/")[0]] += [(-count, name) for name, count in counts.items() if count > MAX_MEMBERS]
+    for module, classes in sorted(item for item in found.items() if item[1]):
+        yield [module, ", ".join(f"{name} {-count}" for count, name in sorted(classes))]
 
 
 def cycle_edges(edges):
@@ -295,8 +325,10 @@ def main():
         rows.append([module, *cells])
     print_table(HEAD, rows)
     print("\n" + headers, end="")
+    print("## Large classes\n\nClasses with more than 15 members, and how many they have.\n")
+    print_table(["module", "classes"], large_classes(roots[-1]))
     print(
-        "## Folders\n\nModules are in bold, from the lowest layer to the highest, with the modules that they use; below them their folders.\n"
+        "\n## Folders\n\nModules are in bold, from the lowest layer to the highest, with the modules that they use; below them their folders.\n"
     )
     print_table(["folder", "purpose", "uses", "files"], folder_rows(roots[-1]))
 

@@ -2,22 +2,13 @@
 // near misses.
 #pragma once
 
-#include <cstdint>
-#include <deque>
 #include <functional>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "sim/policies/planned_drone.h"
-#include "sim/vehicle/damage.h"
 #include "sim/vehicle/downwash_exposure.h"
-#include "sim/vehicle/fall_warning.h"
-#include "sim/vehicle/flight_world.h"
+#include "sim/vehicle/fleet.h"
 #include "sim/vehicle/near_misses.h"
 #include "sim/vehicle/people_nearby.h"
-#include "sim/vehicle/pilot.h"
-#include "sim/vehicle/wind.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -30,17 +21,19 @@ struct FlightLog {
   std::function<void(std::size_t agent, const Eigen::Vector2d& impulse_ns)> strike = {};
 };
 
-/// The wind of a flight.
-struct FlightWeather {
-  WindSpec wind;
-  std::uint64_t seed = 1;  ///< seed of the gusts
-};
+/// Equal ticks, a whole number of them in each interval.
+struct FlightClock {
+  double interval_s = 0;
+  int ticks_per_interval = 1;
+  int ticks_per_wind = 1;
+  int ticks_per_sample = 1;
+  long tick = 0;
+  double sampled_s = 0;  ///< time of the last samples
 
-/// When a pilot decides, and the decisions that its motors do not have yet.
-struct ControlClock {
-  int ticks_per_control = 1;
-  int delay_ticks = 0;
-  std::deque<std::pair<long, PerRotor>> commands;  ///< with the tick from which each holds
+  double tick_s() const { return interval_s / ticks_per_interval; }
+  /// Counted from the interval's start, so that no rounding adds up over a run.
+  double time_s() const;
+  bool is_interval_over() const { return tick % ticks_per_interval == 0; }
 };
 
 /// Simulates the flight of all drones. Deterministic; not thread-safe.
@@ -60,44 +53,20 @@ class Flight {
   /// Records events that are still going on. No other method may be called afterwards.
   void finish();
 
-  FlightState state(std::size_t drone) const { return world_.state(drone); }
-  Pilot& pilot(std::size_t drone) { return pilots_[drone]; }
-  const Pilot& pilot(std::size_t drone) const { return pilots_[drone]; }
+  FlightState state(std::size_t drone) const { return fleet_.world.state(drone); }
+  Pilot& pilot(std::size_t drone) { return fleet_.drones[drone].pilot; }
+  const Pilot& pilot(std::size_t drone) const { return fleet_.drones[drone].pilot; }
 
  private:
-  void meet_people();
-  void control();
-  void command();
-  void blow();
   void record_samples();
   void record_impacts(std::span<const Impact> impacts);
-  void damage(const Impact& impact);
-  void watch_falls();
-  void watch_surroundings();
 
-  int ticks_per_interval_;
-  int ticks_per_wind_;
-  int ticks_per_sample_;
-  double interval_s_;
-  long interval_ = 0;
-  long tick_ = 0;
-  double time_s_ = 0;
-  double sampled_s_ = 0;  ///< time of the last samples
-  FlightWorld world_;
+  FlightClock clock_;
+  Fleet fleet_;
   FlightLog log_;
-  WindSpec wind_;
-  std::vector<Pilot> pilots_;
-  std::vector<ControlClock> clocks_;  ///< of the pilots
-  std::vector<Gusts> gusts_;
-  std::vector<Jet> jets_;
-  std::vector<FallWarning> falls_;
-  std::vector<Damage> damages_;       ///< damage of each drone so far
-  std::vector<FlightState> states_;   ///< when the wind was last updated
-  std::vector<Eigen::Vector3d> air_;  ///< wind at each drone, m/s
-  std::vector<VehicleInAir> crafts_;  ///< as of the last samples
   PeopleInMotion people_;
-  std::vector<NearPerson>
-      near_;  ///< people relevant to any drone in this interval, as of the last samples
+  /// People relevant to any drone in this interval, as of the last samples.
+  std::vector<NearPerson> near_;
   NearMisses near_misses_;
   DownwashExposure exposure_;
 };

@@ -21,22 +21,50 @@ constexpr double kChangeStrides = 0.15;
 
 double half(Side side) { return side == Side::left ? 0.0 : 0.5; }
 
-// Lays the pieces of walking, in order.
+// The frame, as a phase from the middle of the left foot's stance on, at which clips change.
+double switch_phase(const Clip& clip) {
+  return std::ceil(clip.middle * static_cast<float>(clip.frames)) /
+         static_cast<double>(clip.frames);
+}
+
+// Position along the path of a phase of a step's clip; the middle of the step is its beginning.
+double place_m(const Footstep& step, double phase) {
+  return step.begin_m + 2 * step.length_m * (phase - static_cast<double>(step.clip->middle));
+}
+
+// The phase after so many strides, rounded to a whole number of frames.
+double after(const Clip& clip, double strides) {
+  const auto frames = static_cast<double>(clip.frames);
+  return std::max(std::round(strides * frames), 1.0) / frames;
+}
+
+std::uint32_t palette(const Clip& clip, double frame) {
+  return blend_frame(clip, std::round(frame)).a;
+}
+
+std::uint32_t ready_palette(const ClipSet& clips) {
+  const Clip& idle = clips.nearest("idle");
+  return idle.first + ready_frame(idle);
+}
+
+// Lays the pieces of a walk, in order.
 class WalkLayer {
  public:
   WalkLayer(const Trajectory& trajectory, const Stretch& stretch, const ClipSet& clips,
-            const Walk& walk, std::vector<Piece>& pieces)
-      : trajectory_(trajectory), stretch_(stretch), clips_(clips), walk_(walk), pieces_(pieces) {}
+            std::vector<Piece>& pieces)
+      : trajectory_(trajectory), stretch_(stretch), clips_(clips), pieces_(pieces) {}
 
-  void lay() {
-    for (std::size_t i = 0; i < walk_.steps.size(); ++i) {
-      const Footstep& step = walk_.steps[i];
-      if (i == 0) {
-        begin(step);
-      } else if (step.clip != clip_) {
-        change(step);
+  void lay(const Walk& walk) {
+    for (std::size_t i = 0; i < walk.steps.size(); ++i) {
+      const Footstep& step = walk.steps[i];
+      if (i == 0 && walk.from_rest) {
+        start(step);
+      } else if (i == 0) {
+        start_within(step);
+      } else if (step.clip != walk.steps[i - 1].clip) {
+        change(*walk.steps[i - 1].clip, step);
       }
-      const bool stops = walk_.to_rest && i + 1 == walk_.steps.size();
+      const bool stops = walk.to_rest && i + 1 == walk.steps.size();
       if (stops) {
         stop(step);
       } else {
@@ -46,21 +74,11 @@ class WalkLayer {
   }
 
  private:
-  // The frame, as a phase from the middle of the left foot's stance on, at which clips change.
-  static double switch_phase(const Clip& clip) {
-    return std::ceil(clip.middle * static_cast<float>(clip.frames)) /
-           static_cast<double>(clip.frames);
-  }
-
-  // Position along the path of a phase of a step's clip; the middle of the step is its beginning.
-  static double place_m(const Footstep& step, double phase) {
-    return step.begin_m + 2 * step.length_m * (phase - static_cast<double>(step.clip->middle));
-  }
-
-  void add(const Clip& clip, double to_frame, double to_m) {
-    const bool goes_on = !pieces_.empty() && pieces_.back().clip == &clip &&
-                         pieces_.back().by_distance && &clip == clip_ &&
-                         pieces_.back().to_frame == frame_ && clip.cyclic && laid_;
+  // A piece up to a position on the path; without a clip, a blend between two palettes.
+  void add(const Clip* clip, double frame, double to_frame, double to_m) {
+    const bool goes_on = clip != nullptr && clip->cyclic && !pieces_.empty() &&
+                         pieces_.back().clip == clip && pieces_.back().by_distance &&
+                         pieces_.back().to_frame == frame;
     if (goes_on) {
       Piece& last = pieces_.back();
       // Only strides of one length: the frames stay in step with the path.
@@ -68,73 +86,41 @@ class WalkLayer {
       last.to = to_m;
     } else {
       pieces_.push_back({trajectory_.step_at(at_m_, stretch_.first, stretch_.last), at_m_, to_m,
-                         frame_, to_frame, &clip, true});
+                         frame, to_frame, clip, true});
     }
-    laid_ = true;
-    clip_ = &clip;
-    frame_ = to_frame;
     at_m_ = to_m;
   }
 
-  void blend(std::uint32_t from, std::uint32_t to, double to_m) {
-    pieces_.push_back({trajectory_.step_at(at_m_, stretch_.first, stretch_.last), at_m_, to_m,
-                       static_cast<double>(from), static_cast<double>(to), nullptr, true});
-    at_m_ = to_m;
+  // In the middle of a step.
+  void start_within(const Footstep& step) {
+    at_m_ = trajectory_.distance_m(static_cast<double>(stretch_.first));
+    const double done = (at_m_ - step.begin_m) / (2 * step.length_m);
+    frame_ = (step.clip->middle + half(step.side) + done) * step.clip->frames;
   }
 
-  void begin(const Footstep& step) {
+  void start(const Footstep& step) {
     const Clip& clip = *step.clip;
-    const auto frames = static_cast<double>(clip.frames);
-    if (!walk_.from_rest) {
-      // In the middle of a step.
-      at_m_ = trajectory_.distance_m(static_cast<double>(stretch_.first));
-      const double done = (at_m_ - step.begin_m) / (2 * step.length_m);
-      clip_ = &clip;
-      frame_ = (clip.middle + half(step.side) + done) * frames;
-      return;
-    }
     at_m_ = step.begin_m;
     const Clip* start =
         clips_.find(step.side == Side::left ? "start_left" : "start_right", clip.stride);
     if (start != nullptr && start->stride == clip.stride) {
-      clip_ = start;
-      frame_ = 0;
-      add(*start, start->frames - 1, place_m(step, clip.middle + 0.25));
-      frame_ = (clip.middle + 0.25 + half(step.side)) * frames;
+      add(start, 0, start->frames - 1, place_m(step, clip.middle + 0.25));
+      frame_ = (clip.middle + 0.25 + half(step.side)) * clip.frames;
     } else {
       const double phase = switch_phase(clip) + after(clip, kChangeStrides);
-      frame_ = (phase + half(step.side)) * frames;
-      blend(ready_palette(), palette(clip, frame_), place_m(step, phase));
+      frame_ = (phase + half(step.side)) * clip.frames;
+      add(nullptr, ready_palette(clips_), palette(clip, frame_), place_m(step, phase));
     }
-    clip_ = &clip;
-    laid_ = false;
   }
 
-  std::uint32_t ready_palette() const {
-    const Clip& idle = clips_.nearest("idle");
-    return idle.first + ready_frame(idle);
-  }
-
-  // A whole number of frames.
-  static double after(const Clip& clip, double strides) {
-    const auto frames = static_cast<double>(clip.frames);
-    return std::max(std::round(strides * frames), 1.0) / frames;
-  }
-
-  static std::uint32_t palette(const Clip& clip, double frame) {
-    return blend_frame(clip, std::round(frame)).a;
-  }
-
-  void change(const Footstep& step) {
+  void change(const Clip& from, const Footstep& step) {
     const Clip& clip = *step.clip;
-    const bool alike = clip.name == clip_->name;
+    const bool alike = clip.name == from.name;
     const double phase =
         switch_phase(clip) + (alike ? 1.0 / clip.frames : after(clip, kChangeStrides));
-    const std::uint32_t from = palette(*clip_, frame_);
+    const std::uint32_t from_palette = palette(from, frame_);
     frame_ = (phase + half(step.side)) * clip.frames;
-    blend(from, palette(clip, frame_), place_m(step, phase));
-    clip_ = &clip;
-    laid_ = false;
+    add(nullptr, from_palette, palette(clip, frame_), place_m(step, phase));
   }
 
   // On in the step's clip, to a phase of it.
@@ -142,8 +128,9 @@ class WalkLayer {
     const double frame = (phase + half(step.side)) * step.clip->frames;
     // Positions grow for ever within a piece: whole strides make no difference.
     const double frames = step.clip->frames;
-    add(*step.clip, frame + frames * std::round((frame_ + 0.25 * frames - frame) / frames),
-        place_m(step, phase));
+    const double to_frame = frame + frames * std::round((frame_ + 0.25 * frames - frame) / frames);
+    add(step.clip, frame_, to_frame, place_m(step, phase));
+    frame_ = to_frame;
   }
 
   void stop(const Footstep& step) {
@@ -154,23 +141,18 @@ class WalkLayer {
     const double end_m = step.begin_m + step.length_m;
     const Clip* stop = clips_.find(side == Side::left ? "stop_left" : "stop_right", clip.stride);
     if (stop != nullptr && stop->stride == clip.stride) {
-      laid_ = false;
-      frame_ = 0;
-      add(*stop, stop->frames - 1, end_m);
+      add(stop, 0, stop->frames - 1, end_m);
     } else {
-      blend(palette(clip, frame_), ready_palette(), end_m);
+      add(nullptr, palette(clip, frame_), ready_palette(clips_), end_m);
     }
   }
 
   const Trajectory& trajectory_;
   const Stretch& stretch_;
   const ClipSet& clips_;
-  const Walk& walk_;
   std::vector<Piece>& pieces_;
-  const Clip* clip_ = nullptr;
-  double frame_ = 0;
-  double at_m_ = 0;
-  bool laid_ = false;  ///< whether the last piece is of this clip and ends here
+  double frame_ = 0;  ///< of the step's clip, where the walk goes on
+  double at_m_ = 0;   ///< end of the last piece
 };
 
 struct ClipActions {
@@ -244,7 +226,7 @@ MotionPlan::MotionPlan(const Population& population, const Appearance& appearanc
       if (walk.steps.empty()) {
         rest.stand(stretch, first, last);
       } else {
-        WalkLayer(trajectory, stretch, clips, walk, pieces_).lay();
+        WalkLayer(trajectory, stretch, clips, pieces_).lay(walk);
       }
     }
   }
