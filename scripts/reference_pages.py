@@ -19,14 +19,15 @@ FOLDER = ROOT / "docs" / "reference"
 NOTE = "`scripts/reference_pages.py` writes this page from {}; do not edit it.\n\n"
 PLURALS = {"number": "numbers", "integer": "integers", "text": "texts", "an object": "objects"}
 FIELDS_HEAD = "| field | values | unit | default | meaning |\n|---|---|---|---|---|\n"
-# Kind of file -> its schema, the page that explains the task.
+# Kind of file -> its schema or the table that the schema follows from, the page that explains the task.
 FILES = {
     "job": ("spec/job/job.schema.json", "job.md"),
     "scenario": ("base/schemas/scenario.schema.json", "scenario.md"),
     "blueprint": ("base/schemas/blueprint.schema.json", "blueprint.md"),
     "study": ("base/schemas/study.schema.json", "study.md"),
-    "airframe": ("base/schemas/airframe.schema.json", "drones.md#airframes"),
-    "character": ("base/schemas/character.schema.json", "people.md#characters-of-your-own"),
+    "airframe": ("spec/sim/airframe_fields.cpp", "drones.md#airframes"),
+    "character": ("spec/skinning/character_description.cpp", "people.md#characters-of-your-own"),
+    "calibration": ("spec/calibration/request.cpp", "calibration.md"),
     "camera": ("base/schemas/camera.schema.json", "calibration.md"),
     "experiments": ("base/schemas/experiments.schema.json", "validation.md"),
 }
@@ -190,9 +191,11 @@ class Schema:
         return text
 
 
-def file_page(kind):
+def file_page(throng, kind):
     file, task = FILES[kind]
-    document = json.loads((ROOT / file).read_text(encoding="utf-8"))
+    is_schema = file.endswith(".json")
+    text = (ROOT / file).read_text(encoding="utf-8") if is_schema else subprocess.check_output([throng, "schema", kind])
+    document = json.loads(text)
     schema = Schema(document, document.get("definitions", {}))
     text = f"# Fields of a file: {kind}\n\n{NOTE.format(f'`{file}`')}"
     text += f"[{task.partition('#')[0]}](../{task}) explains the task. `throng schema {kind}` prints the schema, "
@@ -328,7 +331,7 @@ def pages(throng):
         [throng, "crowd", "--list", "--markdown"], capture_output=True, encoding="utf-8", check=True
     )
     made = {"cli": cli_page(throng), "api": api_page(throng), "crowd_vocabulary": vocabulary.stdout}
-    return {**made, **{kind: file_page(kind) for kind in FILES}}
+    return {**made, **{kind: file_page(throng, kind) for kind in FILES}}
 
 
 def main():

@@ -195,25 +195,28 @@ class FaultFinder {
     for (;;) {
       while (at_ < text_.size() && is_space(text_[at_])) ++at_;
       if (at_ >= text_.size()) return end_fault(text_, open_, next_);
+      const char c = text_[at_];
       PossibleFault fault = comment_fault(text_, at_);
-      if (!fault) fault = step(text_[at_]);
+      if (fault) return fault;
+      if (next_ == Next::end) {
+        return Fault{at_,
+                     "more text after the end of the value: " + shorten(rest_of_line(text_, at_)),
+                     "one value, and nothing after it"};
+      }
+      if (c == '}' || c == ']') {
+        fault = close(c);
+      } else if (c == ',') {
+        fault = comma();
+      } else if (c == ':' || c == '=') {
+        fault = colon(c);
+      } else {
+        fault = token(c);
+      }
       if (fault) return fault;
     }
   }
 
  private:
-  PossibleFault step(char c) {
-    if (next_ == Next::end) {
-      return Fault{at_,
-                   "more text after the end of the value: " + shorten(rest_of_line(text_, at_)),
-                   "one value, and nothing after it"};
-    }
-    if (c == '}' || c == ']') return close(c);
-    if (c == ',') return comma();
-    if (c == ':' || c == '=') return colon(c);
-    return token(c);
-  }
-
   PossibleFault close(char c) {
     if (open_.empty()) return Fault{at_, fmt::format("a {} that closes nothing", c), "a value"};
     const Bracket& last = open_.back();

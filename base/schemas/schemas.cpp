@@ -6,7 +6,6 @@ namespace throng::embedded {
 extern const std::string_view kScenarioSchema;
 extern const std::string_view kBlueprintSchema;
 extern const std::string_view kStudySchema;
-extern const std::string_view kAirframeSchema;
 extern const std::string_view kCameraSchema;
 extern const std::string_view kExperimentsSchema;
 }  // namespace throng::embedded
@@ -24,12 +23,11 @@ const JsonSchema& compiled() {
 
 }  // namespace
 
-const std::array<Entry, 6>& entries() {
-  static const std::array<Entry, 6> all = {{
+const std::array<Entry, 5>& entries() {
+  static const std::array<Entry, 5> all = {{
       {Kind::scenario, "scenario", embedded::kScenarioSchema},
       {Kind::blueprint, "blueprint", embedded::kBlueprintSchema},
       {Kind::study, "study", embedded::kStudySchema},
-      {Kind::airframe, "airframe", embedded::kAirframeSchema},
       {Kind::camera, "camera", embedded::kCameraSchema},
       {Kind::experiments, "experiments", embedded::kExperimentsSchema},
   }};
@@ -44,8 +42,6 @@ const JsonSchema& schema_for(Kind kind) {
       return compiled<Kind::blueprint>();
     case Kind::study:
       return compiled<Kind::study>();
-    case Kind::airframe:
-      return compiled<Kind::airframe>();
     case Kind::camera:
       return compiled<Kind::camera>();
     case Kind::experiments:

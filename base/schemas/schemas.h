@@ -1,5 +1,5 @@
-// JSON Schemas of the files that users write, for editors and for the program's readers. The schema
-// of jobs is made from a table of fields (spec/job/schema.h).
+// JSON Schemas of files that users write, for editors and for the program's readers. Those of jobs
+// and airframes are made from tables of fields (spec/documents/published_schemas.h).
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace throng::schemas {
 
 /// Kinds of files.
-enum class Kind { scenario, blueprint, study, airframe, camera, experiments };
+enum class Kind { scenario, blueprint, study, camera, experiments };
 
 /// The schema of a kind of file.
 struct Entry {
@@ -20,7 +20,7 @@ struct Entry {
 };
 
 /// Returns all schemas, in the order of Kind.
-const std::array<Entry, 6>& entries();
+const std::array<Entry, 5>& entries();
 
 /// Returns the compiled schema of a kind, which is created once. Thread-safe.
 const JsonSchema& schema_for(Kind kind);

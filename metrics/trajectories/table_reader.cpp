@@ -134,6 +134,18 @@ void check_field_count(const TableHead& head, const Fields& fields, const TableL
   }
 }
 
+Recorded on_frames(const TablePeople& people, std::optional<double> frames_per_s,
+                   const std::string& file) {
+  Recorded recorded;
+  recorded.frames_per_s = frames_per_s.value_or(0);
+  if (!(recorded.frames_per_s > 0)) {
+    throw InputError({file, "", "no frame rate",
+                      kFrameRateExpected + std::string(", or a comment \"# framerate: 16\"")});
+  }
+  people.put_frames(recorded);
+  return recorded;
+}
+
 /// Reads the lines of a table one after the other.
 class TableReader {
  public:
@@ -180,7 +192,7 @@ class TableReader {
     }
     Recorded recorded = head_.is_by_time()
                             ? put_on_frames(people_.take_timed(head_.spans_gaps), rate, line_.file)
-                            : on_frames(rate);
+                            : on_frames(people_, rate, line_.file);
     if (!left_out.empty()) recorded.notes.push_back({"", "", left_out, ""});
     recorded.unit_m = units_.x_m;
     recorded.unit_is_stated = units_.are_stated;
@@ -241,17 +253,6 @@ class TableReader {
     if (!people_.add(person, when, place)) {
       line_.reject("the same person and time again", expected("each person once at a time"));
     }
-  }
-
-  Recorded on_frames(std::optional<double> frames_per_s) const {
-    Recorded recorded;
-    recorded.frames_per_s = frames_per_s.value_or(0);
-    if (!(recorded.frames_per_s > 0)) {
-      throw InputError({line_.file, "", "no frame rate",
-                        kFrameRateExpected + std::string(", or a comment \"# framerate: 16\"")});
-    }
-    people_.put_frames(recorded);
-    return recorded;
   }
 
   const TrajectoryFormat& format_;

@@ -20,6 +20,7 @@
 #include "server/http/http.h"
 #include "server/jobs/housekeeping.h"
 #include "server/jobs/job_queue.h"
+#include "spec/calibration/request.h"
 #include "spec/calibration/request_files.h"
 
 namespace throng::server {

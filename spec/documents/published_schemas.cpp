@@ -1,12 +1,16 @@
 #include "spec/documents/published_schemas.h"
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "base/json/field_table.h"
 #include "base/json/json_text.h"
 #include "base/schemas/schemas.h"
+#include "spec/calibration/request.h"
 #include "spec/job/job_fields.h"
 #include "spec/job/schema.h"
+#include "spec/sim/airframe_fields.h"
+#include "spec/skinning/character_description.h"
 
 namespace throng::jobs {
 
@@ -15,7 +19,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::string_view kJob = "job";
 constexpr const char* kSchemaMember = "$schema";
 
 ordered_json job() {
@@ -34,16 +37,37 @@ json study(std::string_view text) {
   return schema;
 }
 
+ordered_json airframe() {
+  return fields::document_schema("throng airframe",
+                                 "A quadcopter, as drones[].airframe of a job (docs/drones.md).",
+                                 sim::airframe_fields().schema());
+}
+
+/// A schema that is made from a table of fields.
+struct Made {
+  std::string_view name;
+  ordered_json (*schema)();
+};
+
+constexpr std::array<Made, 4> kMade = {{{"job", job},
+                                        {"airframe", airframe},
+                                        {"calibration", calibrate::request_schema},
+                                        {"character", skinning::character_schema}}};
+
 }  // namespace
 
 std::vector<std::string_view> schema_names() {
-  std::vector<std::string_view> names = {kJob};
+  std::vector<std::string_view> names;
+  names.reserve(kMade.size() + schemas::entries().size());
+  for (const Made& made : kMade) names.push_back(made.name);
   for (const schemas::Entry& entry : schemas::entries()) names.push_back(entry.name);
   return names;
 }
 
 std::string published_schema(std::string_view name) {
-  if (name == kJob) return fields::schema_text(job());
+  for (const Made& made : kMade) {
+    if (made.name == name) return fields::schema_text(made.schema());
+  }
   for (const schemas::Entry& entry : schemas::entries()) {
     if (entry.name != name) continue;
     if (entry.kind == schemas::Kind::study) return study(entry.text).dump(1) + "\n";

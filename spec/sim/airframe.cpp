@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json/json_describe.h"
 #include "base/json/json_text.h"
-#include "base/schemas/schemas.h"
 #include "spec/sim/airframe_fields.h"
-#include "world/json_reader.h"
+#include "spec/sim/airframe_rules.h"
 
 namespace throng::embedded {
 extern const std::string_view kAirframes;
@@ -40,33 +40,42 @@ double Airframe::top_speed_mps() const {
   return 2 * force_n / (linear + std::sqrt(linear * linear + 4 * body_drag.x() * force_n));
 }
 
-Airframe read_airframe(const std::string& name, const nlohmann::json& value,
-                       const std::string& pointer, std::vector<Problem>& problems) {
-  std::vector<Problem> own;
-  const std::string source;
-  Airframe frame = read_airframe_fields(name, world::JsonValue(value, source, own));
-  schemas::add_schema_problems(schemas::Kind::airframe, value, source, own);
-  for (Problem& problem : own) {
-    if (problem.where == "/") problem.where.clear();
-    problem.where = pointer + problem.where;
-    problems.push_back(std::move(problem));
-  }
+namespace {
+
+Airframe read_at(const std::string& name, const nlohmann::json& value,
+                 const fields::FieldLocation& place) {
+  Airframe frame;
+  frame.name = name;
+  airframe_fields().read_checked(value, frame, place);
+  if (!value.is_object()) return frame;
+  if (!value.contains("rotors")) frame.rotors = rotors_in_x(frame.arm_m);
+  check_airframe(frame, value, place);
   return frame;
 }
+
+}  // namespace
+
+Airframe read_airframe(const std::string& name, const nlohmann::json& value,
+                       const std::string& pointer, std::vector<Problem>& problems) {
+  const std::string source;
+  return read_at(name, value, {pointer, source, problems});
+}
+
+nlohmann::json to_json(const Airframe& airframe) { return airframe_fields().print(airframe); }
 
 std::vector<Airframe> parse_airframes(std::string_view json, const std::string& source) {
   const nlohmann::json document = parse_json(json, source);
   std::vector<Problem> problems;
-  const world::JsonValue root(document, source, problems);
+  const fields::FieldLocation root{"", source, problems};
   std::vector<Airframe> frames;
   if (document.is_object()) {
     for (const auto& [name, value] : document.items()) {
       const std::size_t before = problems.size();
-      Airframe frame = read_airframe_fields(name, root[name]);
+      Airframe frame = read_at(name, value, root.below(name));
       if (problems.size() == before) frames.push_back(std::move(frame));
     }
   } else {
-    root.reject("an object with one airframe per name");
+    root.reject(describe(document), "an object with one airframe per name");
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   return frames;

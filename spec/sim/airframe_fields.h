@@ -1,15 +1,12 @@
-// Fields of an airframe in JSON: reading and writing.
+// Fields of an airframe in JSON.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <string>
-
+#include "base/json/field_table.h"
 #include "spec/sim/airframe.h"
-#include "world/json_reader.h"
 
 namespace throng::sim {
 
-/// Reads an airframe; problems go to the value's list.
-Airframe read_airframe_fields(const std::string& name, const world::JsonValue& value);
+/// The fields, whose values and limits are those of one airframe of airframes.json.
+const fields::FieldTable<Airframe>& airframe_fields();
 
 }  // namespace throng::sim

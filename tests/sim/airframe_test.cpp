@@ -9,6 +9,8 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/schemas/json_schema.h"
+#include "spec/documents/published_schemas.h"
 #include "tests/sim/airframes.h"
 
 namespace throng::sim {
@@ -129,6 +131,49 @@ TEST(Airframe, PartsAreReadStrictly) {
         "/mine/sensors/gyroscope/density", "/mine/body_drag_n_s2_m2"}) {
     EXPECT_THAT(problem, HasSubstr(part));
   }
+}
+
+TEST(Airframe, ProblemsThatFollowFromOthersAreNotReported) {
+  json airframes = hector();
+  airframes["mine"]["mass_kg"] = "heavy";
+  airframes["mine"]["rotors"][1]["turns"] = "left";
+  airframes["mine"]["autopilot"]["position_gain_s"] = {1, 0};
+  EXPECT_EQ(caught_problem(airframes),
+            "mine.json: /mine/mass_kg: found \"heavy\", expected a number from 0.001 to 100\n"
+            "mine.json: /mine/rotors/1/turns: found \"left\", expected one of \"clockwise\", "
+            "\"counterclockwise\"\n"
+            "mine.json: /mine/autopilot/position_gain_s/1: found 0, expected a number from 0.01 to "
+            "100");
+}
+
+/// Places of all values.
+void collect_places(const json& value, const json::json_pointer& at,
+                    std::vector<json::json_pointer>& places) {
+  if (!at.empty()) places.push_back(at);
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) collect_places(value[i], at / i, places);
+  } else if (value.is_object()) {
+    for (const auto& [key, child] : value.items()) collect_places(child, at / key, places);
+  }
+}
+
+TEST(Airframe, TheSchemaRefusesTheSameValuesAsTheReader) {
+  const schemas::JsonSchema schema(json::parse(jobs::published_schema("airframe")));
+  const json whole = to_json(testing::airframe_named("hector"));
+  std::vector<json::json_pointer> places;
+  collect_places(whole, json::json_pointer(), places);
+  ASSERT_GT(places.size(), 80U);
+  for (const json::json_pointer& place : places) {
+    for (const json& other :
+         {json("a word"), json(-1e9), json(1e9), json::array({1}), json(true)}) {
+      json changed = whole;
+      changed[place] = other;
+      std::vector<Problem> problems;
+      read_airframe("it", changed, "", problems);
+      EXPECT_EQ(problems.empty(), schema.problems(changed, "").empty()) << place << " = " << other;
+    }
+  }
+  EXPECT_TRUE(schema.problems(whole, "").empty());
 }
 
 }  // namespace
