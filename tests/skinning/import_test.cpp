@@ -10,10 +10,10 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "skinning/image.h"
-#include "spec/skinning/character_description.h"
 #include "skinning/levels.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"
+#include "spec/skinning/character_description.h"
 #include "tests/skinning/rigged_scene.h"
 #include "tests/skinning/walkers.h"
 
