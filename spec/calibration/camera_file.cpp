@@ -55,7 +55,10 @@ FieldTable<ReadCamera> make_fields() {
   constexpr double kMinFocal = 1e-3;
   FieldTable<ReadCamera> table;
   table.add_schema_name();
-  table.add_ignored("type", fields::one_of_words(std::array{kType}), "Kind of file.");
+  table.add_ignored("type",
+                    fields::raw({{"type", "string"}, {"enum", {kType}}},
+                                fmt::format("\"{}\", or no type", kType)),
+                    "Kind of file.");
   table.add_ignored("version", fields::raw({{"type", "integer"}, {"enum", {kVersion}}}),
                     "Version of the format.");
   const auto side = [](int ImageSize::*member) {
