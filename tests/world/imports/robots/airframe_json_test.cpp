@@ -58,8 +58,7 @@ TEST(AirframeJson, TheCameraOfTheAirframeIsThatOfItsDrone) {
   EXPECT_EQ(camera.lens.k1, -0.1);
   // The drone's own fields count where they say otherwise.
   job["drones"][0]["camera"] = {{"pitch_deg", -60}, {"preset", "dji_phantom_4"}};
-  std::vector<Problem> problems;
-  const jobs::JobSpec other = jobs::parse_job(job.dump(), "job", problems);
+  const jobs::JobSpec other = jobs::parse_job(job.dump(), "job");
   EXPECT_EQ(other.drones.at(0).camera.pitch_deg, -60);
   EXPECT_NE(other.drones.at(0).camera.width, 800);
   EXPECT_NEAR(other.drones.at(0).camera.yaw_deg, 17.19, 0.01);
