@@ -146,7 +146,7 @@ void carry_out_in(const fs::path& folder, const OnProgress& on_progress,
   write_points(points_json(calibration));
   write_file_atomically(folder / kOpenCvName, opencv_yaml(calibration));
   write_file_atomically(folder / kRosName,
-                        ros_yaml(calibration, value.value("name", std::string("camera"))));
+                        ros_yaml(calibration, request.name.empty() ? "camera" : request.name));
   drawing::write_drawing(residual_plot(calibration), folder / kPlotName);
   write_file_atomically(folder / kCameraName, to_json(calibration).dump(2) + "\n");
 }

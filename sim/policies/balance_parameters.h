@@ -18,7 +18,7 @@ struct BalanceParameters {
 
   // Trips.
   double min_saving_s = 15;  ///< people times seconds that a trip must save
-  double idle_s = 40;        ///< lost by each person who is idle and is not fetched
+  double idle_s = 40;        ///< lost by each idle person who is not fetched
   double half_worth_s = 20;  ///< a trip that takes so long is worth half
   double abandoned_m = 3;    ///< people who did not come with the drone are left alone ...
   double abandoned_s = 40;   ///< ... for this time

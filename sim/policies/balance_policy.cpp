@@ -34,7 +34,7 @@ class BalancePolicy : public Policy {
       : drone_(context.drone),
         glide_(context.start, context.yaw_rad),
         trips_(context),
-        lead_(context.drone, LeadOptions(context).speed_mps) {}
+        lead_(context.drone, trips_.leads().speed_mps) {}
 
   void see(const WorldView& view) override {
     trips_.update(view);
@@ -58,7 +58,7 @@ class BalancePolicy : public Policy {
       case Kind::collect:
         if (lead_.followers().near > 0 && view.time_s - stage_.since_s >= kBalance.min_collect_s) {
           stage_.enter(Kind::lead, view.time_s);
-          lead_.begin(trips_.route(trip_.to), glide_);
+          lead_.begin(trips_.leads().route(trip_.to), glide_);
         } else if (view.time_s - stage_.since_s >= kBalance.max_collect_s) {
           trips_.abandon(glide_.place(), view.time_s);
           stage_.enter(Kind::wait, view.time_s);
@@ -68,7 +68,7 @@ class BalancePolicy : public Policy {
         if (lead_.followers().count == 0) {
           stage_.enter(Kind::wait, view.time_s);
           decide(view);
-        } else if (lead_.advance(view.time_s, trips_.route(trip_.to), glide_)) {
+        } else if (lead_.advance(view.time_s, trips_.leads().route(trip_.to), glide_)) {
           stage_.enter(Kind::wait, view.time_s);
         }
         break;
@@ -128,7 +128,7 @@ class BalancePolicy : public Policy {
       return set_out(std::nullopt, view.time_s);
     }
     trip_.to = exit;
-    lead_.begin(trips_.route(exit), glide_);
+    lead_.begin(trips_.leads().route(exit), glide_);
   }
 
   int drone_;

@@ -117,8 +117,8 @@ int BalanceTrips::soonest_exit(const Vector2d& place) const {
   double best_s = std::numeric_limits<double>::infinity();
   for (const int exit : leads_.exits) {
     if (!queues_.is_open(exit)) continue;
-    const double out_s =
-        std::max(queues_.wait_s(exit), (route(exit).mouth() - place).norm() / leads_.speed_mps);
+    const double out_s = std::max(queues_.wait_s(exit),
+                                  (leads_.route(exit).mouth() - place).norm() / leads_.speed_mps);
     if (out_s >= best_s) continue;
     best_s = out_s;
     best = exit;
@@ -148,7 +148,7 @@ void BalanceTrips::consider(const WorldView& view, const Vector2d& place, const 
   const double fly_s = (pick - place).norm() / kBalance.fly_speed_mps + 1;
   for (const int to : leads_.exits) {
     if (!queues_.is_open(to)) continue;
-    const double lead_s = (route(to).mouth() - pick).norm() / leads_.speed_mps;
+    const double lead_s = (leads_.route(to).mouth() - pick).norm() / leads_.speed_mps;
     const double arrive_s = fly_s + kBalance.min_collect_s + lead_s;
     BalanceTrip trip{pick, -1, to, people, 0};
     double max_heading = 0;

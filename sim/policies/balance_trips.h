@@ -29,6 +29,8 @@ struct LeadOptions {
   int max_people = 0;
 
   explicit LeadOptions(const PolicyContext& context);
+
+  const LeadRoute& route(int exit) const { return routes[static_cast<std::size_t>(exit)]; }
 };
 
 /// A drone's choice among trips.
@@ -54,7 +56,7 @@ class BalanceTrips {
   bool is_open(int exit) const { return queues_.is_open(exit); }
   /// The open exit by which followers who are at `place` are out soonest; -1 if there is none.
   int soonest_exit(const Eigen::Vector2d& place) const;
-  const LeadRoute& route(int exit) const { return leads_.routes[static_cast<std::size_t>(exit)]; }
+  const LeadOptions& leads() const { return leads_; }
 
  private:
   struct Abandoned {

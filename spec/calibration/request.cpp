@@ -166,7 +166,8 @@ void set_size(ReadRequest& read, const json& value, const FieldLocation& place) 
 void add_inputs(FieldTable<ReadRequest>& table) {
   table.add("kind", "", "", fields::one_of_words(kRequestKinds),
             at(&ReadRequest::request, &Request::kind), "Kind of calibration.");
-  table.add_ignored("name", text(), "Name for people.");
+  table.add("name", "", "", text(), at(&ReadRequest::request, &Request::name),
+            "Name for people, and of the camera in the file for ROS.");
   table.add_read("images",
                  raw({{"type", "array"}, {"items", {{"type", "string"}}}}, "a list of files"),
                  set_images, "Images of a board (intrinsics).");

@@ -16,6 +16,7 @@ namespace throng::calibrate {
 
 /// A calibration with its input files and options.
 struct Request {
+  std::string name;                           ///< of the camera in ROS' file; "": "camera"
   std::string kind = "intrinsics";            ///< "intrinsics", "pose" or "bundle"
   std::vector<std::filesystem::path> images;  ///< intrinsics: images of a board
   Board board;

@@ -13,6 +13,8 @@ static_assert(std::endian::native == std::endian::little, "messages are copied a
 
 namespace {
 
+constexpr std::size_t kHeadBytes = 5;  // type and length
+
 bool is_type(char byte) {
   return std::any_of(kMessageTypes.begin(), kMessageTypes.end(),
                      [&](const auto& row) { return static_cast<char>(row.first) == byte; });
@@ -22,7 +24,7 @@ bool is_type(char byte) {
 
 std::string framed(const Message& message) {
   std::string bytes;
-  bytes.reserve(kMessageHeadBytes + message.bytes.size());
+  bytes.reserve(kHeadBytes + message.bytes.size());
   bytes += static_cast<char>(message.type);
   append_value(bytes, static_cast<std::uint32_t>(message.bytes.size()));
   bytes += message.bytes;
@@ -31,7 +33,7 @@ std::string framed(const Message& message) {
 
 std::optional<Message> MessageReader::next() {
   const std::string_view rest = std::string_view(pending_).substr(done_);
-  if (rest.size() < kMessageHeadBytes) {
+  if (rest.size() < kHeadBytes) {
     pending_.erase(0, done_);
     done_ = 0;
     return std::nullopt;
@@ -41,14 +43,14 @@ std::optional<Message> MessageReader::next() {
   if (!is_type(rest.front()) || length > kMaxMessageBytes) {
     throw EnvironmentError("a live flight sent what is no message");
   }
-  if (rest.size() < kMessageHeadBytes + length) {
+  if (rest.size() < kHeadBytes + length) {
     pending_.erase(0, done_);
     done_ = 0;
     return std::nullopt;
   }
-  done_ += kMessageHeadBytes + length;
+  done_ += kHeadBytes + length;
   return Message{static_cast<MessageType>(rest.front()),
-                 std::string(rest.substr(kMessageHeadBytes, length))};
+                 std::string(rest.substr(kHeadBytes, length))};
 }
 
 }  // namespace throng::live

@@ -32,8 +32,7 @@ inline constexpr std::array<std::pair<MessageType, std::string_view>, 7> kMessag
      {MessageType::failure, "failure"},
      {MessageType::alive, "alive"}}};
 
-/// Bytes of the type and of the length, which stand before a message's own bytes.
-inline constexpr std::size_t kMessageHeadBytes = 5;
+/// Most bytes of a message.
 inline constexpr std::uint32_t kMaxMessageBytes = 64U << 20U;
 
 /// A message without its length.

@@ -22,7 +22,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kNameExpected = "at most 40 letters, digits, - and _";
+constexpr std::size_t kMaxNameLength = 40;
 constexpr const char* kClipExample = R"(an object such as {"name": "Walk", "speed_mps": 1.4})";
 
 using fields::at;
@@ -41,7 +41,12 @@ fields::Values needed_text() {
   return fields::raw({{"type", "string"}, {"minLength", 1}}, "a string that is not empty");
 }
 
-/// Numbers of a range, with what they mean.
+fields::Values names() {
+  return fields::texts_like(fmt::format("^[A-Za-z0-9_-]{{1,{}}}$", kMaxNameLength),
+                            fmt::format("at most {} letters, digits, - and _", kMaxNameLength));
+}
+
+/// Numbers of a range, with their meaning.
 fields::Values quantity(double low, double high, const char* meaning) {
   fields::Values values = fields::numbers(low, high);
   values.expected = fmt::format("{:g} to {:g} ({})", low, high, meaning);
@@ -87,12 +92,11 @@ void add_clip(fields::FieldTable<Character>& table, const char* path, ClipMember
 
 void set_name(Character& character, const json& value, const FieldLocation& place) {
   value.get_to(character.name);
-  constexpr std::size_t kMaxNameLength = 40;
   const bool sound = std::all_of(character.name.begin(), character.name.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
   if (sound && character.name.size() <= kMaxNameLength) return;
-  place.reject("\"" + character.name + "\"", kNameExpected);
+  place.reject("\"" + character.name + "\"", names().expected);
 }
 
 void set_bones(Character& character, const json& value, const FieldLocation& place) {
@@ -131,9 +135,8 @@ fields::FieldTable<Character> make_fields() {
   constexpr const char* kSpeed = "meters per second at the described height";
   fields::FieldTable<Character> table;
   table.add_schema_name();
-  fields::Values name = fields::texts_like("^[A-Za-z0-9_-]{1,40}$", kNameExpected);
   table
-      .add_read("name", std::move(name), set_name,
+      .add_read("name", names(), set_name,
                 "Name in the library, and of the GLB file in its folder.")
       .required();
   table

@@ -30,7 +30,7 @@ class WorkerProcess {
  public:
   /// From now on the process ends with its supervisor ($THRONG_SUPERVISOR_PID), is confined by
   /// limit_this_process() and fence_this_process(), logs to stderr, and has stdout for send() only:
-  /// what drivers print there goes to stderr, too.
+  /// output of drivers goes to stderr, too.
   explicit WorkerProcess(const WorkerRights& rights);
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
