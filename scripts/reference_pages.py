@@ -24,11 +24,11 @@ FILES = {
     "job": ("spec/job/job.schema.json", "job.md"),
     "scenario": ("base/schemas/scenario.schema.json", "scenario.md"),
     "blueprint": ("base/schemas/blueprint.schema.json", "blueprint.md"),
-    "study": ("base/schemas/study.schema.json", "study.md"),
+    "study": ("spec/study/study_document.cpp", "study.md"),
     "airframe": ("spec/sim/airframe_fields.cpp", "drones.md#airframes"),
     "character": ("spec/skinning/character_description.cpp", "people.md#characters-of-your-own"),
     "calibration": ("spec/calibration/request.cpp", "calibration.md"),
-    "camera": ("base/schemas/camera.schema.json", "calibration.md"),
+    "camera": ("spec/calibration/camera_file.cpp", "calibration.md"),
     "experiments": ("base/schemas/experiments.schema.json", "validation.md"),
 }
 

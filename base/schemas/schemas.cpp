@@ -5,8 +5,6 @@
 namespace throng::embedded {
 extern const std::string_view kScenarioSchema;
 extern const std::string_view kBlueprintSchema;
-extern const std::string_view kStudySchema;
-extern const std::string_view kCameraSchema;
 extern const std::string_view kExperimentsSchema;
 }  // namespace throng::embedded
 
@@ -23,12 +21,10 @@ const JsonSchema& compiled() {
 
 }  // namespace
 
-const std::array<Entry, 5>& entries() {
-  static const std::array<Entry, 5> all = {{
+const std::array<Entry, 3>& entries() {
+  static const std::array<Entry, 3> all = {{
       {Kind::scenario, "scenario", embedded::kScenarioSchema},
       {Kind::blueprint, "blueprint", embedded::kBlueprintSchema},
-      {Kind::study, "study", embedded::kStudySchema},
-      {Kind::camera, "camera", embedded::kCameraSchema},
       {Kind::experiments, "experiments", embedded::kExperimentsSchema},
   }};
   return all;
@@ -40,10 +36,6 @@ const JsonSchema& schema_for(Kind kind) {
       return compiled<Kind::scenario>();
     case Kind::blueprint:
       return compiled<Kind::blueprint>();
-    case Kind::study:
-      return compiled<Kind::study>();
-    case Kind::camera:
-      return compiled<Kind::camera>();
     case Kind::experiments:
       break;
   }

@@ -21,27 +21,17 @@ using nlohmann::json;
 
 Flight::Flight(const jobs::JobSpec& job, const world::Scenario& scenario,
                const std::filesystem::path& folder, double max_s)
-    : job_(job),
-      trace_file_(folder / kTraceFile),
-      spec_(jobs::run_spec(job, 0)),
-      recorder_(trace_file_) {
-  spec_.duration_s = max_s;
-  sim::fly_remotely(spec_, scenario);
-  run_ = std::make_unique<sim::SteppedRun>(scenario, spec_, recorder_);
-  pilots_ = std::make_unique<sim::RemotePilots>(scenario, *run_, spec_);
+    : job_(job), trace_file_(folder / kTraceFile), recorder_(trace_file_) {
+  sim::RunSpec spec = jobs::run_spec(job, 0);
+  spec.duration_s = max_s;
+  sim::fly_remotely(spec, scenario);
+  run_ = std::make_unique<sim::SteppedRun>(scenario, spec, recorder_);
+  pilots_ = std::make_unique<sim::RemotePilots>(scenario, *run_, spec);
 }
 
 Flight::~Flight() = default;
 
 const world::TraceHeader& Flight::header() const { return recorder_.header(); }
-
-std::vector<FlownDrone> Flight::flown_drones() const {
-  std::vector<FlownDrone> list;
-  for (const sim::PlannedDrone& drone : drones()) {
-    list.push_back({drone.mission.id, !drone.mission.camera.gimbal.is_rigid()});
-  }
-  return list;
-}
 
 std::shared_ptr<const Moment> Flight::moment(std::uint32_t sequence) const {
   auto moment = std::make_shared<Moment>(recorder_.moment(dt_s()));
@@ -92,6 +82,15 @@ json Flight::finish() {
           {"drones", std::move(logs)},
           {"job", jobs::to_json(replay_job(job_, *pilots_, time_s()))},
           {"warnings", std::move(texts)}};
+}
+
+std::vector<FlownDrone> flown_drones(const Flight& flight) {
+  std::vector<FlownDrone> list;
+  list.reserve(flight.drones().size());
+  for (const sim::PlannedDrone& drone : flight.drones()) {
+    list.push_back({drone.mission.id, !drone.mission.camera.gimbal.is_rigid()});
+  }
+  return list;
 }
 
 std::vector<std::string> drone_ids(const Flight& flight) {

@@ -35,8 +35,6 @@ class Flight {
 
   const world::TraceHeader& header() const;
   const std::vector<sim::PlannedDrone>& drones() const { return run_->drones(); }
-  /// The drones as commands address them.
-  std::vector<FlownDrone> flown_drones() const;
   double dt_s() const { return run_->dt_s(); }
   double time_s() const { return run_->time_s(); }
 
@@ -57,11 +55,13 @@ class Flight {
  private:
   jobs::JobSpec job_;
   std::filesystem::path trace_file_;
-  sim::RunSpec spec_;
   RunRecorder recorder_;
   std::unique_ptr<sim::SteppedRun> run_;
   std::unique_ptr<sim::RemotePilots> pilots_;
 };
+
+/// The flight's drones as commands address them.
+std::vector<FlownDrone> flown_drones(const Flight& flight);
 
 /// The ids of the flight's drones.
 std::vector<std::string> drone_ids(const Flight& flight);

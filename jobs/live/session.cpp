@@ -102,7 +102,7 @@ class Session {
   void take(const std::string& line) {
     const json message = parse_own_json(line, "the service's message");
     if (const auto given = message.find("commands"); given != message.end()) {
-      control_.command(commands_from_json(*given, flight_.flown_drones()));
+      control_.command(commands_from_json(*given, flown_drones(flight_)));
     }
     if (const auto viewers = message.find("viewers"); viewers != message.end()) {
       control_.watch(viewers->get<int>() > 0);

@@ -2,10 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <array>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
-#include "base/schemas/schemas.h"
+#include "base/json/field_table.h"
 
 namespace throng::calibrate {
 
@@ -16,16 +20,84 @@ namespace {
 constexpr const char* kType = "throng-camera";
 constexpr int kVersion = 1;
 
-double number_at(const json& value, const std::string& name, double low, double high,
-                 const std::string& source) {
-  const auto found = value.find(name);
-  const bool good = found != value.end() && found->is_number() && *found >= low && *found <= high;
-  if (!good) {
-    throw InputError(Problem{source, "/" + name, found == value.end() ? "nothing" : found->dump(),
-                             fmt::format("a number from {} to {}", low, high)});
-  }
-  return found->get<double>();
+using fields::FieldLocation;
+using fields::FieldTable;
+
+/// A file's numbers by name, of which the lens has some.
+struct ReadCamera {
+  ImageSize size;
+  Lens lens = Lens::pinhole;
+  std::map<std::string, double> parameters;
+};
+
+/// Adds a number that is read and never printed.
+void add_number(FieldTable<ReadCamera>& table, const std::string& name, const char* unit,
+                double low, double high, FieldTable<ReadCamera>::Set set, const char* help) {
+  table.add(
+      name, "", unit, fields::numbers(low, high), [](const ReadCamera&) { return json(); },
+      std::move(set), help);
 }
+
+void add_parameter(FieldTable<ReadCamera>& table, const std::string& name, const char* unit,
+                   double low, const char* help) {
+  constexpr double kMaxParameter = 1e7;
+  add_number(
+      table, name, unit, low, kMaxParameter,
+      [name](ReadCamera& read, const json& value, const FieldLocation&) {
+        read.parameters[name] = value.get<double>();
+      },
+      help);
+}
+
+FieldTable<ReadCamera> make_fields() {
+  constexpr double kMaxSide = 20000;
+  constexpr double kMaxParameter = 1e7;
+  constexpr double kMinFocal = 1e-3;
+  FieldTable<ReadCamera> table;
+  table.add_schema_name();
+  table.add_ignored("type",
+                    fields::raw({{"type", "string"}, {"enum", {kType}}},
+                                fmt::format("\"{}\", or no type", kType)),
+                    "Kind of file.");
+  table.add_ignored("version", fields::raw({{"type", "integer"}, {"enum", {kVersion}}}),
+                    "Version of the format.");
+  const auto side = [](int ImageSize::*member) {
+    return [member](ReadCamera& read, const json& value, const FieldLocation&) {
+      read.size.*member = static_cast<int>(value.get<double>());
+    };
+  };
+  add_number(table, "width", "px", 1, kMaxSide, side(&ImageSize::width), "Width of the images.");
+  add_number(table, "height", "px", 1, kMaxSide, side(&ImageSize::height), "Height of the images.");
+  std::vector<std::string> lenses;
+  lenses.reserve(kLenses.size());
+  for (const Lens lens : kLenses) lenses.emplace_back(to_string(lens));
+  table.add_read(
+      "lens", fields::one_of_words(lenses),
+      [](ReadCamera& read, const json& value, const FieldLocation& place) {
+        read.lens = lens_named(value.get<std::string>(), place.source);
+      },
+      "Lens model.");
+  add_parameter(table, "fx", "px", kMinFocal, "Focal length along x.");
+  add_parameter(table, "fy", "px", kMinFocal, "Focal length along y.");
+  add_parameter(table, "cx", "px", -kMaxParameter, "Principal point, x.");
+  add_parameter(table, "cy", "px", -kMaxParameter, "Principal point, y.");
+  add_parameter(table, "skew", "px", -kMaxParameter, "Skew.");
+  for (const char* name : {"k1", "k2", "k3", "k4", "k5", "k6"}) {
+    add_parameter(table, name, "", -kMaxParameter, "Radial coefficient.");
+  }
+  for (const char* name : {"p1", "p2"}) {
+    add_parameter(table, name, "", -kMaxParameter, "Tangential coefficient.");
+  }
+  return table;
+}
+
+const FieldTable<ReadCamera>& camera_file_fields() {
+  static const FieldTable<ReadCamera> table = make_fields();
+  return table;
+}
+
+/// Names of the fields that every camera has.
+constexpr std::array kRequired = {"width", "height", "lens", "fx", "fy", "cx", "cy"};
 
 }  // namespace
 
@@ -64,34 +136,39 @@ CameraFile camera_from_json(const json& value, const std::string& source) {
     throw InputError(Problem{source, "", value.type_name(),
                              "an object with the fields of a camera (docs/calibration.md)"});
   }
-  if (const json type = value.value("type", json(kType)); type != kType) {
-    throw InputError(
-        Problem{source, "/type", type.dump(), fmt::format("\"{}\", or no type", kType)});
+  // A calibration writes more than a lens.
+  json known = json::object();
+  for (const auto& [name, member] : value.items()) {
+    if (camera_file_fields().find(name) != nullptr) known[name] = member;
   }
-  if (const json version = value.value("version", json(kVersion)); version != kVersion) {
-    throw InputError(Problem{source, "/version", version.dump(),
-                             fmt::format("{}, which this program knows, or no version", kVersion)});
-  }
-  CameraFile camera;
-  constexpr double kMaxSide = 20000;
-  constexpr double kMaxParameter = 1e7;
-  constexpr double kMinFocal = 1e-3;
-  camera.size.width = static_cast<int>(number_at(value, "width", 1, kMaxSide, source));
-  camera.size.height = static_cast<int>(number_at(value, "height", 1, kMaxSide, source));
-  const json lens = value.value("lens", json());
-  camera.lens = lens_named(lens.is_string() ? lens.get<std::string>() : lens.dump(), source);
+  ReadCamera read;
+  std::vector<Problem> problems;
+  const FieldLocation place{"", source, problems};
+  const auto require = [&](const std::string& name) {
+    if (!known.contains(name)) place.below(name).reject("nothing", "a value, which the lens has");
+  };
+  camera_file_fields().read_checked(known, read, place);
+  for (const char* name : kRequired) require(name);
+  CameraFile camera{.lens = read.lens, .parameters = {}, .size = read.size};
   for (std::size_t i = 0; i < kParameters; ++i) {
     const std::string name = parameter_name(camera.lens, i);
-    if (name.empty() || (i == kSkew && !value.contains(name))) continue;
-    const bool focal = i == kFx || i == kFy;
-    camera.parameters[i] =
-        number_at(value, name, focal ? kMinFocal : -kMaxParameter, kMaxParameter, source);
+    if (name.empty()) continue;
+    if (i >= kCoefficients) require(name);
+    camera.parameters[i] = read.parameters[name];
   }
-  std::vector<Problem> problems;
-  schemas::add_schema_problems(schemas::Kind::camera, value, source, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   require_principal_point_inside(camera, source);
   return camera;
+}
+
+nlohmann::ordered_json camera_file_schema() {
+  nlohmann::ordered_json schema = camera_file_fields().schema();
+  schema.erase("additionalProperties");
+  schema["required"] = kRequired;
+  return fields::document_schema("throng camera",
+                                 "A calibrated camera, as throng calibrate writes it and "
+                                 "camera.calibration of a job reads it (docs/calibration.md).",
+                                 schema);
 }
 
 }  // namespace throng::calibrate

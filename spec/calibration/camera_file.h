@@ -36,4 +36,7 @@ void require_principal_point_inside(const CameraFile& camera, const std::string&
 /// Reads a camera. Throws InputError naming `source` if `value` is not a valid camera.
 CameraFile camera_from_json(const nlohmann::json& value, const std::string& source);
 
+/// The JSON Schema of a camera's file.
+nlohmann::ordered_json camera_file_schema();
+
 }  // namespace throng::calibrate

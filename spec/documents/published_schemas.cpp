@@ -6,11 +6,13 @@
 #include "base/json/field_table.h"
 #include "base/json/json_text.h"
 #include "base/schemas/schemas.h"
+#include "spec/calibration/camera_file.h"
 #include "spec/calibration/request.h"
 #include "spec/job/job_fields.h"
 #include "spec/job/schema.h"
 #include "spec/sim/airframe_fields.h"
 #include "spec/skinning/character_description.h"
+#include "spec/study/study_document.h"
 
 namespace throng::jobs {
 
@@ -29,12 +31,9 @@ ordered_json job() {
 }
 
 /// The parts that a study takes over from jobs are described as in a job.
-json study(std::string_view text) {
-  json schema = parse_json(text, "study.schema.json");
-  for (const char* part : {"crowd", "drones"}) {
-    schema["definitions"][part] = job_schema()["properties"][part];
-  }
-  return schema;
+ordered_json study() {
+  const ordered_json& job = ordered_job_schema()["properties"];
+  return study::study_schema(job["crowd"], job["drones"]);
 }
 
 ordered_json airframe() {
@@ -49,9 +48,11 @@ struct Made {
   ordered_json (*schema)();
 };
 
-constexpr std::array<Made, 4> kMade = {{{"job", job},
+constexpr std::array<Made, 6> kMade = {{{"job", job},
+                                        {"study", study},
                                         {"airframe", airframe},
                                         {"calibration", calibrate::request_schema},
+                                        {"camera", calibrate::camera_file_schema},
                                         {"character", skinning::character_schema}}};
 
 }  // namespace
@@ -70,7 +71,6 @@ std::string published_schema(std::string_view name) {
   }
   for (const schemas::Entry& entry : schemas::entries()) {
     if (entry.name != name) continue;
-    if (entry.kind == schemas::Kind::study) return study(entry.text).dump(1) + "\n";
     return std::string(entry.text);
   }
   return {};

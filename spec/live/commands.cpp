@@ -17,6 +17,7 @@ using fields::at;
 using fields::FieldLocation;
 using fields::FieldTable;
 using nlohmann::json;
+using nlohmann::ordered_json;
 
 namespace {
 
@@ -94,26 +95,61 @@ void set_gimbal(DroneCommand& command, const json& value, const FieldLocation& p
 const FieldTable<DroneCommand>& drone_fields() {
   static const FieldTable<DroneCommand> fields = [] {
     FieldTable<DroneCommand> table;
-    table.add("id", "", "", fields::texts(1, kMaxName), at(&DroneCommand::id), "").required();
-    table.add("velocity_mps", "", "m/s", fields::raw({{"type", "array"}}), velocity_json,
-              set_velocity, "");
+    const auto list = [] { return fields::raw({{"type", "array"}}); };
+    table.add("id", "", "", fields::texts(1, kMaxName), at(&DroneCommand::id), "Id of the drone.")
+        .required();
+    table.add("velocity_mps", "", "m/s", list(), velocity_json, set_velocity,
+              "Velocity [ahead, to the left, up]. Drones fly at most 10 m/s over the ground and "
+              "3 m/s up or down.");
     table.add("yaw_rate_deg_s", "", "degrees/s", fields::numbers(-kMaxYawDegS, kMaxYawDegS),
-              at(&DroneCommand::yaw_rate_deg_s), "");
-    table.add("position_m", "", "m", fields::raw({{"type", "array"}}), position_json, set_position,
-              "");
+              at(&DroneCommand::yaw_rate_deg_s),
+              "Rate of yaw, counter-clockwise; drones turn at most at 120.");
+    table.add("position_m", "", "m", list(), position_json, set_position,
+              "Point [x, y, z] in the world to fly to, after the waypoints if both are given. The "
+              "drone stays there.");
     table.add("waypoints_m", "", "m", fields::raw({{"type", "array"}, {"maxItems", kMaxWaypoints}}),
-              waypoints_json, set_waypoints, "");
+              waypoints_json, set_waypoints,
+              "Points [x, y, z] in the world to fly to one after another; an empty list ends a "
+              "flight to points.");
     table.add("yaw_deg", "", "degrees", fields::numbers(-kMaxTurnDeg, kMaxTurnDeg),
-              at(&DroneCommand::yaw_deg), "");
+              at(&DroneCommand::yaw_deg),
+              "Heading to turn to, counter-clockwise from +x. Without points, the drone turns "
+              "where it is.");
     table.add("speed_mps", "", "m/s", fields::numbers(kMinSpeedMps, kMaxSpeedMps),
-              at(&DroneCommand::speed_mps), "");
-    table.add("gimbal_deg", "", "degrees", fields::raw({{"type", "array"}}), gimbal_json,
-              set_gimbal, "");
-    table.add("beacon", "", "", fields::booleans(), at(&DroneCommand::beacon), "");
-    table.add("return_home", "", "", fields::booleans(), at(&DroneCommand::return_home), "");
+              at(&DroneCommand::speed_mps),
+              "Speed on the way to points given with it; default: 5.");
+    table.add("gimbal_deg", "", "degrees", list(), gimbal_json, set_gimbal,
+              fmt::format("Direction to turn the camera to: [pitch from {:g} to {:g} above the "
+                          "horizon, yaw from {:g} to {:g} to the left of the heading]. Gimbals "
+                          "turn at most at 60 degrees/s; a rigid camera has none.",
+                          camera::kMinGimbalPitchDeg, camera::kMaxGimbalPitchDeg,
+                          -camera::kMaxGimbalYawDeg, camera::kMaxGimbalYawDeg));
+    table.add("beacon", "", "", fields::booleans(), at(&DroneCommand::beacon),
+              "Whether people may follow the drone.");
+    table.add("return_home", "", "", fields::booleans(), at(&DroneCommand::return_home),
+              "Whether the drone returns to its start, until it is steered again.");
     return table;
   }();
   return fields;
+}
+
+/// The schema of lists of `count` numbers.
+ordered_json vector_schema(double low, double high, int count) {
+  return fields::lists(count, count, fields::numbers(low, high).rules).rules;
+}
+
+/// The schema of drone_fields(), with the rules of lists that are checked when they are set.
+ordered_json drone_schema() {
+  ordered_json schema = drone_fields().schema();
+  ordered_json& properties = schema["properties"];
+  const ordered_json point = vector_schema(-kMaxAwayM, kMaxAwayM, 3);
+  properties["velocity_mps"].update(vector_schema(-kMaxSpeedMps, kMaxSpeedMps, 3));
+  properties["position_m"].update(point);
+  properties["waypoints_m"]["items"] = point;
+  properties["gimbal_deg"].update(
+      vector_schema(-camera::kMaxGimbalYawDeg, camera::kMaxGimbalYawDeg, 2));
+  schema["type"] = "object";
+  return schema;
 }
 
 json drones_json(const Commands& commands) {
@@ -132,12 +168,17 @@ void set_drones(Commands& commands, const json& value, const FieldLocation& plac
 const FieldTable<Commands>& command_fields() {
   static const FieldTable<Commands> fields = [] {
     FieldTable<Commands> table;
-    table.add("sequence", "", "", fields::integers(0, kMaxSequence), at(&Commands::sequence), "");
-    table.add("paused", "", "", fields::booleans(), at(&Commands::paused), "");
-    table.add("factor", "", "", fields::numbers(kMinFactor, kMaxFactor), at(&Commands::factor), "");
-    table.add("view", "", "", fields::texts(1, kMaxName), at(&Commands::view), "");
+    table.add("sequence", "", "", fields::integers(0, kMaxSequence), at(&Commands::sequence),
+              "Number that comes back with the states and images in which the commands are in "
+              "force.");
+    table.add("paused", "", "", fields::booleans(), at(&Commands::paused),
+              "Whether time stands still.");
+    table.add("factor", "", "", fields::numbers(kMinFactor, kMaxFactor), at(&Commands::factor),
+              "Simulated seconds per second; default at the start: 1.");
+    table.add("view", "", "", fields::texts(1, kMaxName), at(&Commands::view),
+              "Id of the drone whose camera is shown; default at the start: the first drone.");
     table.add("drones", "", "", fields::raw({{"type", "array"}, {"maxItems", kMaxDrones}}),
-              drones_json, set_drones, "");
+              drones_json, set_drones, "Commands of drones.");
     return table;
   }();
   return fields;
@@ -178,5 +219,12 @@ Commands commands_from_json(const json& value, const std::vector<FlownDrone>& dr
 }
 
 json to_json(const Commands& commands) { return command_fields().print(commands); }
+
+ordered_json commands_schema() {
+  ordered_json schema = command_fields().schema();
+  schema["type"] = "object";
+  schema["properties"]["drones"]["items"] = drone_schema();
+  return schema;
+}
 
 }  // namespace throng::live

@@ -56,4 +56,7 @@ Commands commands_from_json(const nlohmann::json& value, const std::vector<Flown
 /// The inverse of commands_from_json().
 nlohmann::json to_json(const Commands& commands);
 
+/// The JSON Schema of commands.
+nlohmann::ordered_json commands_schema();
+
 }  // namespace throng::live

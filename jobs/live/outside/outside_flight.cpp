@@ -88,7 +88,7 @@ class OutsideFlight {
     server.host = options.host;
     server.port = options.port;
     server.origins = options.origins;
-    bridge_.emplace(server, stage_->flight.flown_drones(), ros_names(stage_->flight),
+    bridge_.emplace(server, flown_drones(stage_->flight), ros_names(stage_->flight),
                     options.has_camera, control_);
     bridge_->set_facts(facts(*stage_));
   }

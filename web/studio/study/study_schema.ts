@@ -2,7 +2,7 @@
 import type { Path } from "../form/json";
 import type { Schema } from "../form/schema";
 
-/** base/schemas/study.schema.json as the service sends it. */
+/** The schema of a study as the service sends it. */
 export interface StudySchema extends Schema {
   definitions?: Record<string, Schema>;
 }
