@@ -22,8 +22,8 @@ FIELDS_HEAD = "| field | values | unit | default | meaning |\n|---|---|---|---|-
 # Kind of file -> its schema or the table that the schema follows from, the page that explains the task.
 FILES = {
     "job": ("spec/job/job.schema.json", "job.md"),
-    "scenario": ("base/schemas/scenario.schema.json", "scenario.md"),
-    "blueprint": ("base/schemas/blueprint.schema.json", "blueprint.md"),
+    "scenario": ("world/fields/scenario_fields.cpp", "scenario.md"),
+    "blueprint": ("spec/blueprint/blueprint_fields.cpp", "blueprint.md"),
     "study": ("spec/study/study_document.cpp", "study.md"),
     "airframe": ("spec/sim/airframe_fields.cpp", "drones.md#airframes"),
     "character": ("spec/skinning/character_description.cpp", "people.md#characters-of-your-own"),

@@ -51,7 +51,7 @@ run_parts() {
 
 step_format() {
   say "checking the format, the language and the types"
-  run_parts tree cpp_format json_readers python_format shell language python_types
+  run_parts tree cpp_format json_readers limits python_format shell language python_types
 }
 tree() { /usr/bin/python3 scripts/check_tree.py; }
 cpp_format() { sources | xargs clang-format --dry-run --Werror; }
@@ -67,6 +67,7 @@ python_format() {
   black --check --quiet -l 120 --extend-exclude '/python/throng/(job|api_types)\.py$' python tests bench scripts examples ||
     { echo "Python files are not formatted: run black -l 120 on them" >&2; return 1; }
 }
+limits() { /usr/bin/python3 scripts/check_limits.py; }
 shell() { git ls-files --cached --others --exclude-standard -- '*.sh' .ci/run | xargs shellcheck; }
 language() { /usr/bin/python3 scripts/check_language.py; }
 python_types() { mypy --strict --cache-dir "$stamps/mypy" python/throng python/generate_types.py; }

@@ -8,9 +8,8 @@
 #include <string_view>
 #include <vector>
 
-namespace throng::world {
 
-class JsonValue;
+namespace throng::world {
 
 enum class DisasterKind : std::uint8_t { explosion, fire, attacker, collapse, gas };
 
@@ -30,12 +29,5 @@ struct Disaster {
   /// Radius of the affected disc at a time of the run (m); 0 before the start.
   double reach_m(double time_s) const;
 };
-
-/// Reads a disaster from a JSON object. Does not reject unknown fields: the caller calls
-/// JsonValue::fields(). A missing "max_radius_m" means 1000 m.
-Disaster read_disaster(const JsonValue& item, int agent);
-
-/// Reads the list "disasters" of a scenario, whose agents must differ.
-std::vector<Disaster> read_disasters(const JsonValue& list);
 
 }  // namespace throng::world

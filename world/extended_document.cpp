@@ -4,8 +4,8 @@
 
 #include "base/files/confine.h"
 #include "base/files/files.h"
+#include "base/json/json_describe.h"
 #include "base/json/json_text.h"
-#include "world/json_reader.h"
 
 namespace throng::world {
 
@@ -26,19 +26,21 @@ std::size_t depth_in(const json& document, const std::string& pointer) {
 
 /// The file that a document extends. Throws InputError.
 fs::path base_document(const json& document, const fs::path& file, const std::string& source) {
-  std::vector<Problem> problems;
-  const JsonValue value = JsonValue(document, source, problems)["extends"];
-  const std::string name = value.text();
-  const fs::path base = fs::absolute(file).parent_path() / fs::path(name).filename();
-  if (problems.empty()) {
-    if (name.empty() || fs::path(name).filename() != name || !Confinement::allows(base)) {
-      value.reject("the name of a file in the same folder");
-    } else if (!fs::is_regular_file(base)) {
-      value.reject(fmt::format("\"{}\", which does not exist beside this file", name),
-                   "the name of a file in the same folder");
-    }
+  constexpr const char* kExpected = "the name of a file in the same folder";
+  const json& extends = document["extends"];
+  if (!extends.is_string()) {
+    throw InputError({source, "/extends", describe(extends), "text"});
   }
-  if (!problems.empty()) throw InputError(std::move(problems));
+  const auto& name = extends.get_ref<const std::string&>();
+  const fs::path base = fs::absolute(file).parent_path() / fs::path(name).filename();
+  if (name.empty() || fs::path(name).filename() != name || !Confinement::allows(base)) {
+    throw InputError({source, "/extends", describe(extends), kExpected});
+  }
+  if (!fs::is_regular_file(base)) {
+    throw InputError({source, "/extends",
+                      fmt::format("\"{}\", which does not exist beside this file", name),
+                      kExpected});
+  }
   return base;
 }
 

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-namespace throng::world {
 
-class JsonValue;
+namespace throng::world {
 
 /// A polygon with a material of its own. Corners counter-clockwise seen from above.
 struct GroundArea {
@@ -24,11 +23,5 @@ struct Marking {
   Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
   double width_m = 0.12;
 };
-
-/// Reads "pavers", "asphalt", "grass", "concrete" or "dirt"; records a problem for other words.
-std::string read_ground_material(const JsonValue& value);
-
-std::vector<GroundArea> read_ground_areas(const JsonValue& list);
-std::vector<Marking> read_markings(const JsonValue& list);
 
 }  // namespace throng::world

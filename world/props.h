@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+
 namespace throng::world {
 
-class JsonValue;
 struct Scenario;
 
 enum class PropKind : std::uint8_t {
@@ -54,12 +54,6 @@ std::array<Eigen::Vector2d, 4> prop_footprint(const Prop& prop);
 
 /// Distance from a point to the ground that a prop covers (m); 0 inside.
 double distance_to(const Prop& prop, const Eigen::Vector2d& point);
-
-/// Reads the lists "props" and "scatter" of a scenario whose exits and buildings are already read.
-/// Scattered props avoid buildings, exits and each other; a placed prop in a building or within
-/// kClearOfExitsM of an exit is a problem.
-std::vector<Prop> read_props(const JsonValue& props, const JsonValue& scatter,
-                             const Scenario& scenario);
 
 /// Depth in front of and behind an exit, over its whole width, that props must leave free (m).
 inline constexpr double kClearOfExitsM = 3;

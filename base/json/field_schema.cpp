@@ -110,15 +110,17 @@ ordered_json schema_for(std::span<const FieldRules* const> fields) {
       parent = &(*group)["properties"];
       path.remove_prefix(end + 1);
     }
-    if (group != nullptr && field->is_required) (*group)["required"].push_back(path);
     (*parent)[std::string(path)] = field->is_group ? rules_of_group(*field) : field_rules(*field);
-    if (field->deprecated_name.empty()) continue;
-    check(field->sampling == Sampling::never, "a renamed field is a plain one");
-    ordered_json old = field_rules(*field);
-    old["description"] = fmt::format("Deprecated: use {}.", path);
-    old["deprecated"] = true;
-    old["x-renamed-to"] = path;
-    (*parent)[field->deprecated_name] = std::move(old);
+    if (!field->deprecated_name.empty()) {
+      check(field->sampling == Sampling::never, "a renamed field is a plain one");
+      ordered_json old = field_rules(*field);
+      old["description"] = fmt::format("Deprecated: use {}.", path);
+      old["deprecated"] = true;
+      old["x-renamed-to"] = path;
+      (*parent)[field->deprecated_name] = std::move(old);
+    }
+    // Last: a new member of the group moves the others, `parent` among them.
+    if (group != nullptr && field->is_required) (*group)["required"].push_back(path);
   }
   return schema;
 }

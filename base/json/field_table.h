@@ -52,6 +52,10 @@ struct Field : FieldRules {
     deprecated_name = std::move(name);
     return *this;
   }
+  Field& measured_in(std::string name) {
+    unit = std::move(name);
+    return *this;
+  }
   /// Marks an object without default; the help text says what happens if it is missing.
   Field& without_default() {
     default_value = nullptr;
@@ -202,13 +206,13 @@ class FieldTable {
         std::move(help));
   }
 
-  /// Adds the fields of a part of the object, with the prefix `path`.
+  /// Adds the fields of a part of the object, with the prefix `path`; "": without a prefix.
   template <typename Part, typename Access>
   void add_all(const std::string& path, const FieldTable<Part>& part, Access access) {
     for (const Field<Part>& other : part.fields()) {
       Field<Object>& field = fields_.emplace_back();
       static_cast<FieldRules&>(field) = other;
-      field.path = path + "/" + other.path;
+      field.path = path.empty() ? other.path : path + "/" + other.path;
       if (other.is_group) continue;
       field.get = [access, get = other.get](const Object& object) { return get(access(object)); };
       field.set = [access, set = other.set](Object& object, const nlohmann::json& value,
@@ -261,6 +265,14 @@ class FieldTable {
   /// Returns the schema of the object: "properties", and "required" if there are required fields.
   nlohmann::ordered_json schema() const { return schema_for(rules()); }
 
+  /// The rules of all fields.
+  std::vector<const FieldRules*> rules() const {
+    std::vector<const FieldRules*> rules;
+    rules.reserve(fields_.size());
+    for (const Field<Object>& field : fields_) rules.push_back(&field);
+    return rules;
+  }
+
  private:
   /// Calls visit(field, value, location) for the fields that `value` has, by their names or
   /// deprecated names.
@@ -276,13 +288,6 @@ class FieldTable {
       if (found_old == nullptr || !old.allows_deprecated(field, found != nullptr)) continue;
       visit(field, *found_old, old);
     }
-  }
-
-  std::vector<const FieldRules*> rules() const {
-    std::vector<const FieldRules*> rules;
-    rules.reserve(fields_.size());
-    for (const Field<Object>& field : fields_) rules.push_back(&field);
-    return rules;
   }
 
   Fields fields_;

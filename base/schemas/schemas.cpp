@@ -3,8 +3,6 @@
 #include "base/json/json_text.h"
 
 namespace throng::embedded {
-extern const std::string_view kScenarioSchema;
-extern const std::string_view kBlueprintSchema;
 extern const std::string_view kExperimentsSchema;
 }  // namespace throng::embedded
 
@@ -21,24 +19,15 @@ const JsonSchema& compiled() {
 
 }  // namespace
 
-const std::array<Entry, 3>& entries() {
-  static const std::array<Entry, 3> all = {{
-      {Kind::scenario, "scenario", embedded::kScenarioSchema},
-      {Kind::blueprint, "blueprint", embedded::kBlueprintSchema},
+const std::array<Entry, 1>& entries() {
+  static const std::array<Entry, 1> all = {{
       {Kind::experiments, "experiments", embedded::kExperimentsSchema},
   }};
   return all;
 }
 
 const JsonSchema& schema_for(Kind kind) {
-  switch (kind) {
-    case Kind::scenario:
-      return compiled<Kind::scenario>();
-    case Kind::blueprint:
-      return compiled<Kind::blueprint>();
-    case Kind::experiments:
-      break;
-  }
+  check(kind == Kind::experiments, "the only kind");
   return compiled<Kind::experiments>();
 }
 

@@ -10,7 +10,7 @@
 namespace throng::schemas {
 
 /// Kinds of files.
-enum class Kind { scenario, blueprint, experiments };
+enum class Kind { experiments };
 
 /// The schema of a kind of file.
 struct Entry {
@@ -20,7 +20,7 @@ struct Entry {
 };
 
 /// Returns all schemas, in the order of Kind.
-const std::array<Entry, 3>& entries();
+const std::array<Entry, 1>& entries();
 
 /// Returns the compiled schema of a kind, which is created once. Thread-safe.
 const JsonSchema& schema_for(Kind kind);

@@ -43,6 +43,30 @@ std::string failure_message(const jobs::WorkerError& error) {
       {MessageType::failure, to_json(error).dump(-1, ' ', false, json::error_handler_t::replace)});
 }
 
+/// The recording of a flight: its topics, as they are sent to other programs, in a file.
+class TopicRecording {
+ public:
+  /// Begins the file in `folder`. If its topics are invalid, it ends with a message instead.
+  TopicRecording(const fs::path& folder, const RecordingOptions& options, const jobs::JobSpec& job,
+                 const Flight& flight, const skinning::Population& population)
+      : recording_(folder / kRecordingFile, options.min_free_bytes, options.max_bytes) {
+    try {
+      topics_.emplace(job, flight, statures_m(flight.header(), population, clothing(job)),
+                      [this](const ros::TopicMessage& message) { recording_.add(message); });
+      topics_->add(*flight.moment(0), {}, {});
+    } catch (const InputError& error) {
+      recording_.stop(error.what());
+    }
+  }
+
+  FlightTopics* topics() { return topics_ ? &*topics_ : nullptr; }
+  json finish() { return recording_.finish(); }
+
+ private:
+  FlightRecording recording_;
+  std::optional<FlightTopics> topics_;
+};
+
 class Session {
  public:
   Session(const jobs::JobSpec& job, const world::Scenario& scenario, const fs::path& folder,
@@ -54,7 +78,7 @@ class Session {
         flight_(job, scenario, folder),
         control_(drone_ids(flight_), {.is_watched = false}) {
     control_.begin(flight_.moment(0));
-    if (record) begin_recording(folder, *record);
+    if (record) recording_.emplace(folder, *record, job, flight_, population_);
   }
 
   void run() {
@@ -74,16 +98,8 @@ class Session {
   }
 
  private:
-  void begin_recording(const fs::path& folder, const RecordingOptions& options) {
-    recording_.emplace(folder / kRecordingFile, options.min_free_bytes, options.max_bytes);
-    try {
-      topics_.emplace(job_, flight_, statures_m(flight_.header(), population_, clothing(job_)),
-                      [this](const ros::TopicMessage& message) { recording_->add(message); });
-      topics_->add(*flight_.moment(0), {}, {});
-    } catch (const InputError& error) {
-      recording_->stop(error.what());
-    }
-  }
+  /// The topics that are recorded; null if there are none.
+  FlightTopics* topics() { return recording_ ? recording_->topics() : nullptr; }
 
   void send(MessageType type, std::string bytes) {
     process_.send(framed({type, std::move(bytes)}));
@@ -115,7 +131,7 @@ class Session {
     std::shared_ptr<const Moment> moment = flight_.step(wishes.commands, wishes.sequence);
     const std::vector<json> events = flight_.take_events();
     for (const json& event : events) send(MessageType::event, event.dump());
-    if (topics_) topics_->add(*moment, wishes.commands, events);
+    if (FlightTopics* const recorded = topics()) recorded->add(*moment, wishes.commands, events);
     send(MessageType::state, state_bytes(*moment, reached_factor, false));
     return moment;
   }
@@ -135,8 +151,9 @@ class Session {
     images.take = [this](const FlightImage& image) {
       const Moment& moment = *image.moment;
       send(MessageType::image, image_bytes(moment, image.time_s, image.drone, image.jpeg));
-      if (topics_ && image.is_new) {
-        topics_->add_image(moment, image.drone, image.time_s, image.jpeg);
+      FlightTopics* const recorded = topics();
+      if (recorded != nullptr && image.is_new) {
+        recorded->add_image(moment, image.drone, image.time_s, image.jpeg);
       }
     };
     return images;
@@ -147,8 +164,7 @@ class Session {
   jobs::WorkerProcess& process_;
   const skinning::Population population_;
   Flight flight_;  ///< of the thread that flies, but for what never changes
-  std::optional<FlightRecording> recording_;
-  std::optional<FlightTopics> topics_;  ///< of the thread that flies, but for images
+  std::optional<TopicRecording> recording_;  ///< of the thread that flies, but for images
   Control control_;
 };
 

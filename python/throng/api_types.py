@@ -600,6 +600,7 @@ class LiveCommandsDrone(TypedDict):
     """LiveCommandsDrone of the service."""
 
     id: str
+    """Id of the drone."""
     velocity_mps: NotRequired[list[float]]
     """Velocity [ahead, to the left, up]. Drones fly at most 10 m/s over the ground and 3 m/s up or down."""
     yaw_rate_deg_s: NotRequired[float]
@@ -627,11 +628,13 @@ class LiveCommands(TypedDict):
     sequence: NotRequired[int]
     """Number that comes back with the states and images in which the commands are in force."""
     paused: NotRequired[bool]
+    """Whether time stands still."""
     factor: NotRequired[float]
     """Simulated seconds per second; default at the start: 1."""
     view: NotRequired[str]
     """Id of the drone whose camera is shown; default at the start: the first drone."""
     drones: NotRequired[list[LiveCommandsDrone]]
+    """Commands of drones."""
 
 
 class ScenarioExit(TypedDict):

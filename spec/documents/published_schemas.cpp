@@ -6,6 +6,7 @@
 #include "base/json/field_table.h"
 #include "base/json/json_text.h"
 #include "base/schemas/schemas.h"
+#include "spec/blueprint/blueprint_fields.h"
 #include "spec/calibration/camera_file.h"
 #include "spec/calibration/request.h"
 #include "spec/job/job_fields.h"
@@ -13,6 +14,7 @@
 #include "spec/sim/airframe_fields.h"
 #include "spec/skinning/character_description.h"
 #include "spec/study/study_document.h"
+#include "world/fields/scenario_fields.h"
 
 namespace throng::jobs {
 
@@ -48,7 +50,9 @@ struct Made {
   ordered_json (*schema)();
 };
 
-constexpr std::array<Made, 6> kMade = {{{"job", job},
+constexpr std::array<Made, 8> kMade = {{{"job", job},
+                                        {"scenario", world::scenario_schema},
+                                        {"blueprint", scenarios::blueprint_schema},
                                         {"study", study},
                                         {"airframe", airframe},
                                         {"calibration", calibrate::request_schema},

@@ -71,7 +71,7 @@ std::vector<std::string> quality_words() {
 void add_crowd_fields(FieldTable<JobSpec>& table) {
   table.group("crowd", "Crowd", "The people of a run and their movement.");
   table
-      .add("crowd/agents", "Agents", "people", integers(1, 1000000), at(&JobSpec::agents),
+      .add("crowd/agents", "Agents", "people", integers(1, kMaxJobAgents), at(&JobSpec::agents),
            "Number of the scenario's people that take part, sampled by the seed; default: all.")
       .randomized();
   table.add(
@@ -184,7 +184,7 @@ FieldTable<JobSpec> make_job_fields() {
       .required();
   table.add("seed", "Seed", "", integers(0, 9007199254740991), at(&JobSpec::seed),
             "All randomness comes from it: equal jobs with equal seeds give equal bytes.");
-  table.add("runs", "Runs", "runs", integers(1, 1000), at(&JobSpec::runs),
+  table.add("runs", "Runs", "runs", integers(1, kMaxJobRuns), at(&JobSpec::runs),
             "Number of simulations of the scenario, each with its own seed.");
   add_crowd_fields(table);
   table.add("drones", "Drones", "", lists(0, 16, drone_rules()), drones_json, set_drones,

@@ -56,6 +56,10 @@ struct OutputSpec {
   formats::ExportOptions exports;
 };
 
+/// Limits of a job.
+inline constexpr int kMaxJobRuns = 1000;
+inline constexpr int kMaxJobAgents = 1'000'000;
+
 /// One of several scenarios of a job.
 struct ScenarioShare {
   std::string scenario;                              ///< as JobSpec::scenario

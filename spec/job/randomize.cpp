@@ -9,7 +9,6 @@
 #include "base/json/json_integer.h"
 #include "base/text/suggest.h"
 #include "spec/job/schema.h"
-#include "world/json_reader.h"
 
 namespace throng::jobs {
 

@@ -53,7 +53,7 @@ const FieldTable<ScenarioShare>& share_fields() {
               "Parameters of a generated scenario; without a seed, another one for each run.");
     table.add("weight", "Weight", "", numbers(kMinWeight, kMaxWeight), at(&ScenarioShare::weight),
               "Runs are shared out by the weights.");
-    table.add("agents", "Agents", "people", integers(1, 1000000), at(&ScenarioShare::agents),
+    table.add("agents", "Agents", "people", integers(1, kMaxJobAgents), at(&ScenarioShare::agents),
               "Number of people that take part in these runs, instead of crowd.agents.");
     return table;
   }();

@@ -40,7 +40,7 @@ fields::FieldTable<GeneratorSpec> make_generator_fields() {
       .add("kind", "Kind", "", std::move(kinds), at(&GeneratorSpec::kind),
            "Layout of the scenario.")
       .required();
-  table.add("seed", "Seed", "", integers(0, 1'000'000'000), at(&GeneratorSpec::seed),
+  table.add("seed", "Seed", "", integers(0, kMaxSeed), at(&GeneratorSpec::seed),
             "Seed of all that is not given.");
   add_sampled_number(table, "size_m", "Size", "m", numbers(30, 200), &GeneratorSpec::size_m,
                      "Length of the longer side.");

@@ -14,6 +14,9 @@ namespace throng::scenarios {
 
 constexpr std::array<std::string_view, 4> kPlaceKinds = {"plaza", "street", "campus", "block"};
 
+/// Max seed of generated scenarios and of studies.
+inline constexpr int kMaxSeed = 1'000'000'000;
+
 /// Parameters of a generated scenario. Those marked "0: sampled" are sampled from the seed if they
 /// are 0.
 struct GeneratorSpec {

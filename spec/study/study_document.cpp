@@ -10,6 +10,7 @@
 #include "base/text/control_characters.h"
 #include "base/text/portable_name.h"
 #include "base/text/words.h"
+#include "spec/job/job_spec.h"
 
 namespace throng::study {
 
@@ -186,9 +187,9 @@ FieldTable<StudyDocument> make_fields() {
   FieldTable<StudyDocument> table;
   table.add_schema_name();
   table.add("name", "Name", "", one_line(), at(&StudyDocument::name), "Name for people.");
-  table.add("seed", "Seed", "", fields::integers(0, 1'000'000'000), at(&StudyDocument::seed),
+  table.add("seed", "Seed", "", fields::integers(0, scenarios::kMaxSeed), at(&StudyDocument::seed),
             "Seed of all runs.");
-  table.add("runs", "Runs of each", "", fields::integers(1, 1000), at(&StudyDocument::runs),
+  table.add("runs", "Runs of each", "", fields::integers(1, jobs::kMaxJobRuns), at(&StudyDocument::runs),
             "Number of runs of each case and policy; the run of one number has the same seed in "
             "all of them.");
   table.add("baseline", "Baseline", "", ids(), at(&StudyDocument::baseline),

@@ -11,7 +11,6 @@
 #include "crowd/simulation.h"
 #include "tests/world/scenarios/square.h"
 #include "tests/world/temporary_folder.h"
-#include "world/json_reader.h"
 #include "world/scenarios/blueprint/blocked.h"
 #include "world/scenarios/blueprint/blueprint.h"
 #include "world/scenarios/blueprint/people.h"
@@ -37,8 +36,8 @@ Made build_and_run(const json& blueprint) {
   made.scenario = world::load_scenario(
       make_scenario(blueprint, "square.blueprint.json", folder.path(), "sq"), "sq");
   std::vector<Problem> problems;
-  const world::JsonValue root(blueprint, "square.blueprint.json", problems);
-  made.people = read_people(root["people"], root["disasters"], made.scenario.exits);
+  const std::string source = "square.blueprint.json";
+  made.people = read_people(blueprint, made.scenario.exits, {"", source, problems});
   EXPECT_TRUE(problems.empty());
   return made;
 }

@@ -12,8 +12,10 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/files/resources.h"
-#include "base/schemas/schemas.h"
+#include "base/schemas/json_schema.h"
+#include "spec/blueprint/blueprint_fields.h"
 #include "world/scenario.h"
+#include "world/fields/scenario_fields.h"
 #include "world/scenarios/blueprint/blueprint.h"
 #include "world/semantic_class.h"
 
@@ -22,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using schemas::Kind;
+
+enum class Kind { scenario, blueprint };
 
 const fs::path kScenarios = source_folder() / "scenarios";
 
@@ -52,8 +55,14 @@ bool reads(Kind kind, const json& document, const fs::path& file) {
   }
 }
 
+const schemas::JsonSchema& schema_for(Kind kind) {
+  static const schemas::JsonSchema scenario(world::scenario_schema());
+  static const schemas::JsonSchema blueprint(blueprint_schema());
+  return kind == Kind::scenario ? scenario : blueprint;
+}
+
 bool is_valid(Kind kind, const json& document) {
-  return schemas::schema_for(kind).problems(document, "").empty();
+  return schema_for(kind).problems(document, "").empty();
 }
 
 /// Places of all values but those deep in long lists, where one is as good as all.
@@ -77,7 +86,7 @@ TEST_P(ScenarioSchemas, HoldsForAllThatAreShipped) {
   EXPECT_GE(files.size(), 8U);
   for (const fs::path& file : files) {
     const json whole = places ? load_blueprint(file) : json::parse(read_file(file));
-    for (const Problem& problem : schemas::schema_for(GetParam()).problems(whole, file)) {
+    for (const Problem& problem : schema_for(GetParam()).problems(whole, file)) {
       ADD_FAILURE() << problem.text();
     }
     json named = whole;
@@ -126,10 +135,9 @@ TEST(SchemaOfMeshes, ListsTheClassesThatTheReaderKnows) {
     if (known.group == world::SemanticGroup::prop) classes.emplace_back(known.name);
   }
   for (const Kind kind : {Kind::scenario, Kind::blueprint}) {
-    const std::string_view text = schemas::entries().at(static_cast<std::size_t>(kind)).text;
-    const json schema = json::parse(text);
-    const json& listed = schema.at("/definitions/mesh/properties/class/enum"_json_pointer);
-    EXPECT_EQ(listed, json(classes));
+    const json& schema = schema_for(kind).document();
+    EXPECT_EQ(schema.at("/properties/meshes/items/properties/class/enum"_json_pointer),
+              json(classes));
   }
 }
 

@@ -441,12 +441,15 @@ export interface LiveResult {
 export interface LiveCommands {
   /** Number that comes back with the states and images in which the commands are in force. */
   sequence?: number;
+  /** Whether time stands still. */
   paused?: boolean;
   /** Simulated seconds per second; default at the start: 1. */
   factor?: number;
   /** Id of the drone whose camera is shown; default at the start: the first drone. */
   view?: string;
+  /** Commands of drones. */
   drones?: {
+    /** Id of the drone. */
     id: string;
     /** Velocity [ahead, to the left, up]. Drones fly at most 10 m/s over the ground and 3 m/s up or down. */
     velocity_mps?: number[];

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "world/scenario.h"
-#include "world/scenarios/blueprint/people.h"
+#include "spec/blueprint/people.h"
 
 namespace throng::scenarios {
 

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files/files.h"
-#include "base/schemas/schemas.h"
+#include "base/schemas/json_schema.h"
 #include "crowd/description/menge_files/write.h"
+#include "spec/blueprint/blueprint_fields.h"
 #include "world/extended_document.h"
-#include "world/json_reader.h"
 #include "world/scenario.h"
 #include "world/scenarios/blueprint/blocked.h"
 #include "world/scenarios/blueprint/crowd_scene.h"
@@ -103,17 +103,31 @@ bool is_blueprint(const json& document, const fs::path& file) {
 
 namespace {
 
+/// Adds problems for unknown and missing fields of a blueprint without shorthand.
+void check_names(const json& blueprint, const fields::FieldLocation& place) {
+  static const std::vector<fields::FieldRules> rules = blueprint_rules();
+  std::vector<const fields::FieldRules*> all;
+  all.reserve(rules.size());
+  for (const fields::FieldRules& field : rules) all.push_back(&field);
+  fields::check_object(blueprint, all, place);
+}
+
+/// For rules that concern fields beside those of the scenario without people.
+const schemas::JsonSchema& compiled_schema() {
+  static const schemas::JsonSchema schema(blueprint_schema());
+  return schema;
+}
+
 BuiltScenario build_from(const json& blueprint, const json& said, const std::string& source,
                          const std::string& id) {
   std::vector<Problem> problems;
-  const world::JsonValue root(blueprint, source, problems);
-  root.fields({"name", "ground", "inside", "exits", "people"},
-              {"description", "buildings", "drones", "disasters", "meshes", "props", "scatter"});
+  const fields::FieldLocation place{"", source, problems};
+  check_names(blueprint, place);
   if (!problems.empty()) throw InputError(std::move(problems));
   BuiltScenario built{scenario_json(blueprint), {}};
   const world::Scenario scenario = scenario_without_people(built.document, source, id);
-  const People people = read_people(root["people"], root["disasters"], scenario.exits);
-  schemas::add_schema_problems(schemas::Kind::blueprint, said, source, problems);
+  const People people = read_people(blueprint, scenario.exits, place);
+  schemas::add_other_places(problems, compiled_schema().problems(said, source));
   if (!problems.empty()) throw InputError(std::move(problems));
   built.crowd = crowd_of_people(scenario, people, problems);
   for (Problem& problem : problems) problem.source = source;

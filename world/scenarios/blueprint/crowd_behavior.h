@@ -6,7 +6,7 @@
 
 #include "crowd/description/description.h"
 #include "world/scenarios/blueprint/closing_doors.h"
-#include "world/scenarios/blueprint/people.h"
+#include "spec/blueprint/people.h"
 
 namespace throng::scenarios {
 

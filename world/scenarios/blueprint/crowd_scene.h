@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "crowd/description/description.h"
-#include "world/scenarios/blueprint/people.h"
+#include "spec/blueprint/people.h"
 #include "world/scenarios/blueprint/standing.h"
 
 namespace throng::scenarios {

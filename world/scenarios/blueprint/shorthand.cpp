@@ -10,7 +10,8 @@
 #include <utility>
 
 #include "base/geometry/angle.h"
-#include "world/json_reader.h"
+#include "base/json/json_describe.h"
+#include "spec/blueprint/blueprint_fields.h"
 #include "world/props.h"
 #include "world/scenarios/blueprint/frame.h"
 
@@ -18,11 +19,9 @@ namespace throng::scenarios {
 
 using Eigen::Vector2d;
 using nlohmann::json;
-using world::JsonValue;
+using fields::FieldLocation;
 
 namespace {
-
-constexpr double kMaxOutsideM = 100'000;
 
 /// The list at a pointer of the document, if it is one.
 json* list_at(json& document, const char* pointer) {
@@ -31,37 +30,23 @@ json* list_at(json& document, const char* pointer) {
   return &document[at];
 }
 
-/// A list whose items may have a box instead of an outline.
-struct BoxList {
-  const char* pointer;
-  const char* outline;  ///< the field that a box stands for
-};
-constexpr std::array kBoxLists = {BoxList{"/buildings", "footprint"},
-                                  BoxList{"/ground/areas", "corners"}, BoxList{"/scatter", "area"},
-                                  BoxList{"/people/groups", "area"}};
-
-void expand_boxes(const JsonValue& said, const BoxList& list, Expanded& expanded) {
-  json* const items = list_at(expanded.blueprint, list.pointer);
-  if (items == nullptr) return;
-  const std::vector<JsonValue> values = said.items();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!values[i]["box"].exists()) continue;
-    const auto corners = values[i]["box"].tuple(4, "[x0, y0, x1, y1]");
-    if (corners.empty()) continue;
-    const auto number = [&](std::size_t k) {
-      return corners[k].number(-kMaxOutsideM, kMaxOutsideM);
-    };
-    const Vector2d low(number(0), number(1));
-    const Vector2d high(number(2), number(3));
-    if ((low.array() >= high.array()).any()) {
-      values[i]["box"].reject("x0 < x1 and y0 < y1");
-      continue;
-    }
-    (*items)[i].erase("box");
-    (*items)[i][list.outline] = outline_json(low, high);
-    const std::string item = fmt::format("{}/{}", list.pointer, i);
-    expanded.origins.emplace_back(item + "/" + list.outline, item + "/box");
+/// Replaces the box of an item by its outline. `place` is the position of the item.
+void expand_box(const BoxList& list, json& item, const FieldLocation& place, Expanded& expanded) {
+  if (!item.is_object() || !item.contains("box")) return;
+  const auto& field = box_fields().fields().front();
+  const FieldLocation box_place = place.below("box");
+  if (!fields::check_value(item["box"], field, box_place)) return;
+  Box box;
+  field.set(box, item["box"], box_place);
+  const Vector2d low = box.corners.head<2>();
+  const Vector2d high = box.corners.tail<2>();
+  if ((low.array() >= high.array()).any()) {
+    box_place.reject(throng::describe(item["box"]), "x0 < x1 and y0 < y1");
+    return;
   }
+  item.erase("box");
+  item[list.outline] = outline_json(low, high);
+  expanded.origins.emplace_back(place.below(list.outline).pointer, box_place.pointer);
 }
 
 /// How much of a row one prop of the kind takes, m; 0 of an unknown kind, which is refused
@@ -77,17 +62,15 @@ double own_length_m(const std::string& kind, double scale, double turn_rad) {
 }
 
 /// A row of one kind of prop from a point to another, both included.
-void add_row(const JsonValue& row, json& props) {
-  row.fields({"kind", "from", "to", "apart_m"}, {"yaw_deg", "scale"});
-  const Vector2d from = row["from"].vector2(kMaxOutsideM);
-  const Vector2d to = row["to"].vector2(kMaxOutsideM);
-  const double apart_m = row["apart_m"].number(0.2, 1000);
+void add_row(const json& value, const FieldLocation& place, json& props) {
+  PropRow row;
+  const std::size_t problems = place.problems.size();
+  row_fields().read_checked(value, row, place);
+  if (place.problems.size() > problems) return;
+  const auto& [kind, from, to, apart_m, more_deg, scale] = row;
   const double length_m = (to - from).norm();
   int steps = static_cast<int>(std::lround(length_m / apart_m));
   const double along_deg = std::atan2(to.y() - from.y(), to.x() - from.x()) / kDegree;
-  const std::string kind = row["kind"].text();
-  const double scale = row["scale"].exists() ? row["scale"].number(0.2, 5) : 1;
-  const double more_deg = row["yaw_deg"].exists() ? row["yaw_deg"].number(-180, 180) : 0;
   // One more than fits would push props that touch each other into each other.
   if (length_m < steps * own_length_m(kind, scale, more_deg * kDegree)) {
     steps = std::min(steps, static_cast<int>(length_m / apart_m + 1e-9));
@@ -97,9 +80,26 @@ void add_row(const JsonValue& row, json& props) {
     json prop = {{"kind", kind},
                  {"position", point_json(from + share * (to - from))},
                  {"yaw_deg", std::remainder(along_deg + more_deg, 360.0)}};
-    if (row["scale"].exists()) prop["scale"] = scale;
+    if (value.contains("scale")) prop["scale"] = scale;
     props.push_back(std::move(prop));
   }
+}
+
+/// Adds the props of "rows" to "props". `root` is the position of the blueprint.
+void expand_rows(const json& rows, const FieldLocation& root, Expanded& expanded) {
+  json& props = expanded.blueprint["props"];
+  if (props.is_null()) props = json::array();
+  if (!props.is_array()) root.below("props").reject(throng::describe(props), "an array");
+  if (!rows.is_array()) root.below("rows").reject(throng::describe(rows), row_lists().expected);
+  for (std::size_t i = 0; props.is_array() && rows.is_array() && i < rows.size(); ++i) {
+    const std::size_t first = props.size();
+    const FieldLocation place = root.below("rows").below(i);
+    add_row(rows[i], place, props);
+    for (std::size_t k = first; k < props.size(); ++k) {
+      expanded.origins.emplace_back(fmt::format("/props/{}", k), place.pointer);
+    }
+  }
+  expanded.blueprint.erase("rows");
 }
 
 /// The deepest part of a pointer that the document has.
@@ -120,9 +120,9 @@ std::vector<Problem> Expanded::as_said(std::vector<Problem> problems, const json
       break;
     }
     for (const BoxList& list : kBoxLists) {
-      const std::string missing = fmt::format("missing required field \"{}\"", list.outline);
-      if (problem.found == missing && problem.where.starts_with(list.pointer)) {
-        problem.found += " or \"box\"";
+      if (problem.found == "nothing" && problem.where.starts_with(list.pointer) &&
+          problem.where.ends_with(std::string("/") + list.outline)) {
+        problem.expected += ", or \"box\": [x0, y0, x1, y1]";
       }
     }
     const bool is_said = std::any_of(renamed.begin(), renamed.end(), [&](const Problem& other) {
@@ -136,25 +136,15 @@ std::vector<Problem> Expanded::as_said(std::vector<Problem> problems, const json
 Expanded expand_shorthand(const json& said, const std::string& source) {
   std::vector<Problem> problems;
   Expanded expanded{said, {}};
-  const JsonValue root(said, source, problems);
-  expand_boxes(root["buildings"], kBoxLists[0], expanded);
-  expand_boxes(root["ground"]["areas"], kBoxLists[1], expanded);
-  expand_boxes(root["scatter"], kBoxLists[2], expanded);
-  expand_boxes(root["people"]["groups"], kBoxLists[3], expanded);
-  if (root["rows"].exists()) {
-    json& props = expanded.blueprint["props"];
-    if (props.is_null()) props = json::array();
-    if (!props.is_array()) root["props"].reject("an array");
-    const std::vector<JsonValue> rows = root["rows"].items();
-    for (std::size_t i = 0; props.is_array() && i < rows.size(); ++i) {
-      const std::size_t first = props.size();
-      add_row(rows[i], props);
-      for (std::size_t k = first; k < props.size(); ++k) {
-        expanded.origins.emplace_back(fmt::format("/props/{}", k), fmt::format("/rows/{}", i));
-      }
+  const FieldLocation root{"", source, problems};
+  for (const BoxList& list : kBoxLists) {
+    json* const items = list_at(expanded.blueprint, list.pointer);
+    for (std::size_t i = 0; items != nullptr && i < items->size(); ++i) {
+      const FieldLocation place{fmt::format("{}/{}", list.pointer, i), source, problems};
+      expand_box(list, (*items)[i], place, expanded);
     }
-    expanded.blueprint.erase("rows");
   }
+  if (said.is_object() && said.contains("rows")) expand_rows(said["rows"], root, expanded);
   if (!problems.empty()) throw InputError(std::move(problems));
   return expanded;
 }

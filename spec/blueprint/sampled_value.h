@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/json/field_table.h"
 #include "crowd/description/builder.h"
-#include "world/json_reader.h"
 
 namespace throng::scenarios {
 
@@ -35,9 +35,13 @@ struct SampledLimits {
   double relative_stddev = 0;
 };
 
-/// Reads a number, {"uniform": [low, high]}, {"normal": [mean, standard deviation]} or
+/// The rules of a number, {"uniform": [low, high]}, {"normal": [mean, standard deviation]} or
 /// {"lognormal": [median, standard deviation of the logarithm]}; the latter two may have "min" and
 /// "max".
-SampledValue read_sampled(const world::JsonValue& value, const SampledLimits& limits);
+fields::Values sampled_values(const SampledLimits& limits);
+
+/// Reads a value that has a type of sampled_values(); adds problems.
+SampledValue read_sampled(const nlohmann::json& value, const SampledLimits& limits,
+                          const fields::FieldLocation& place);
 
 }  // namespace throng::scenarios

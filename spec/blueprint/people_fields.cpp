@@ -1,0 +1,279 @@
+#include "spec/blueprint/people_fields.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/json/json_describe.h"
+#include "base/json/json_integer.h"
+#include "spec/blueprint/facing_fields.h"
+#include "world/fields/document_values.h"
+
+namespace throng::scenarios {
+
+using fields::at;
+using fields::FieldLocation;
+using fields::FieldTable;
+using nlohmann::json;
+using world::points;
+using world::read_list;
+
+namespace {
+
+constexpr int kMaxPeople = 100'000;
+constexpr int kMaxPeopleInLine = 1000;
+constexpr double kMaxDurationS = 86'400;
+constexpr SampledLimits kFreeSpeedMps = {0.1, 3, 0.19};  // Weidmann 1993: 0.26 of 1.34
+constexpr SampledLimits kEvacuationSpeedMps = {0.1, 3, 0.125};
+constexpr SampledLimits kPreMovementS = {0, 3600, 0};
+constexpr std::array<std::string_view, 4> kDoings = {"stroll", "wait", "cross", "leave"};
+
+template <typename Part>
+void add_doing(FieldTable<Part>& table) {
+  table
+      .add_word("doing", "", kDoings, at(&Part::doing),
+                "Activity: stroll (from spot to spot, with pauses), wait (stand, as an audience), "
+                "cross (to an exit by chance, with a probability in proportion to its width) or "
+                "leave (by the exit that looks fastest).")
+      .required();
+}
+
+template <typename Part>
+void add_speed(FieldTable<Part>& table) {
+  table
+      .add_read(
+          "speed_mps", sampled_values(kFreeSpeedMps),
+          [](Part& part, const json& value, const FieldLocation& place) {
+            part.speed_mps = read_sampled(value, kFreeSpeedMps, place);
+          },
+          "Free speed: a number is the mean of a normal distribution with a standard deviation of "
+          "19 %. Default: 1.34.")
+      .measured_in("m/s");
+}
+
+template <typename Part>
+void add_count(FieldTable<Part>& table, int max_people) {
+  table
+      .add("count", "", "", fields::integers(1, max_people), at(&Part::count), "Number of people.")
+      .required();
+}
+
+template <typename Part>
+void add_facing(FieldTable<Part>& table) {
+  table.add_read(
+      "facing", facing_values(),
+      [](Part& part, const json& value, const FieldLocation& place) {
+        part.facing = read_facing(value, place);
+      },
+      "Direction in which people who wait look until something makes them move: \"random\" (any, "
+      "another for every seed), {\"towards\": [x, y]} or {\"direction_deg\": a}, both with "
+      "\"spread_deg\". Default: random.");
+}
+
+const FieldTable<Group>& group_fields() {
+  static const FieldTable<Group> fields = [] {
+    FieldTable<Group> table;
+    table
+        .add_read(
+            "area", world::polygons(),
+            [](Group& group, const json& value, const FieldLocation& place) {
+              group.area = world::read_points(value);
+              world::check_simple(group.area, place);
+            },
+            "Corners in order; the edges must not cross.")
+        .measured_in("m")
+        .required();
+    add_doing(table);
+    add_count(table, kMaxPeople);
+    add_facing(table);
+    add_speed(table);
+    return table;
+  }();
+  return fields;
+}
+
+Group read_group(const json& value, const FieldLocation& place) {
+  Group group;
+  group_fields().read_checked(value, group, place);
+  if (world::has_valid(value, "doing", place) && group.doing != Doing::wait &&
+      value.contains("facing")) {
+    place.below("facing").reject(describe(value["facing"]), "a group that is doing \"wait\"");
+  }
+  return group;
+}
+
+const FieldTable<Line>& line_fields() {
+  static const FieldTable<Line> fields = [] {
+    FieldTable<Line> table;
+    table.add("from", "", "m", points(), at(&Line::from), "Head of the line.").required();
+    table.add("to", "", "m", points(), at(&Line::to), "End of the line.").required();
+    add_count(table, kMaxPeopleInLine);
+    add_facing(table);
+    add_speed(table);
+    return table;
+  }();
+  return fields;
+}
+
+fields::Values exit_names() {
+  return fields::raw({{"type", "string"}, {"minLength", 1}}, "the id of an exit");
+}
+
+fields::Values arrivals() {
+  nlohmann::ordered_json pair = fields::lists(2, 2, {{"type", "number"}, {"minimum", 0}}).rules;
+  pair["x-expected"] = "[seconds, people]";
+  return world::open_lists(0, std::move(pair));
+}
+
+void set_arrivals(Source& source, const json& list, const FieldLocation& place) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const json& time_s = list[i][0];
+    const json& people = list[i][1];
+    const FieldLocation row = place.below(i);
+    if (time_s.get<double>() > kMaxDurationS) {
+      row.below(0).reject(describe(time_s), fmt::format("a number from 0 to {}", kMaxDurationS));
+    }
+    if (!is_integer(people) || people.get<double>() < 1 || people.get<double>() > kMaxPeople) {
+      row.below(1).reject(describe(people), fmt::format("an integer from 1 to {}", kMaxPeople));
+      continue;
+    }
+    source.table.emplace_back(time_s.get<double>(), static_cast<int>(people.get<double>()));
+  }
+}
+
+const FieldTable<Source>& source_fields() {
+  static const FieldTable<Source> fields = [] {
+    FieldTable<Source> table;
+    add_doing(table);
+    table.add("exit", "", "", exit_names(), at(&Source::exit_id),
+              "Exit by which they come in, from 6 m outside of it.");
+    table
+        .add("from", "", "m", points(), at(&Source::from),
+             "One end of the segment along which they come in, instead of exit.")
+        .without_default();
+    table.add("to", "", "m", points(), at(&Source::to), "The other end of that segment.")
+        .without_default();
+    table
+        .add("per_minute", "", "1/min", fields::numbers(0.01, 10'000), at(&Source::per_minute),
+             "People per minute (Poisson).")
+        .without_default();
+    table.add("until_s", "", "s", fields::numbers(1, kMaxDurationS), at(&Source::until_s),
+              "Time until which they come.");
+    table.add_read("table", arrivals(), set_arrivals,
+                   "Arrivals as [seconds, people], for example of trains, instead of per_minute.");
+    table.add("towards", "", "", exit_names(), at(&Source::towards_id),
+              "Exit that they go to.");
+    add_speed(table);
+    return table;
+  }();
+  return fields;
+}
+
+Source read_source(const json& value, const FieldLocation& place) {
+  Source source;
+  source_fields().read_checked(value, source, place);
+  if (!value.is_object()) return source;
+  if (!value.contains("exit") && (!value.contains("from") || !value.contains("to"))) {
+    place.reject("no position", "\"exit\", or \"from\" and \"to\"");
+  }
+  if (value.contains("table") == value.contains("per_minute")) {
+    place.reject(fmt::format("{} of \"per_minute\" and \"table\"",
+                             value.contains("table") ? "both" : "none"),
+                 "one of them");
+  }
+  return source;
+}
+
+fields::Values evacuation_speeds() {
+  fields::Values values = sampled_values(kEvacuationSpeedMps);
+  values.rules["type"].push_back("string");
+  values.rules["anyOf"].push_back(fields::one_of_words(std::array{"unchanged"}).rules);
+  values.expected = "\"unchanged\", a number or a distribution";
+  return values;
+}
+
+void set_evacuation_speed(People& people, const json& value, const FieldLocation& place) {
+  if (!value.is_string()) {
+    people.evacuation_speed_mps = read_sampled(value, kEvacuationSpeedMps, place);
+  } else if (value == "unchanged") {
+    people.evacuation_speed_mps.reset();
+  } else {
+    place.reject(describe(value), evacuation_speeds().expected);
+  }
+}
+
+/// Adds the lists of people.
+void add_lists(FieldTable<People>& table) {
+  table.add_read(
+      "groups", world::object_lists(group_fields().schema()),
+      [](People& people, const json& list, const FieldLocation& place) {
+        people.groups =
+            read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
+              return read_group(value, item);
+            });
+      },
+      "People at the start, placed at random on the free ground of an area, differently for every "
+      "seed of a run. They overlap nobody placed before; overlapping groups make a crowd denser "
+      "in the middle.");
+  table.add_read(
+      "lines", world::object_lists(line_fields().schema()),
+      [](People& people, const json& list, const FieldLocation& place) {
+        people.lines =
+            read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
+              Line line;
+              line_fields().read_checked(value, line, item);
+              return line;
+            });
+      },
+      "People who stand in line. They look to its head unless they have a facing.");
+  table.add_read(
+      "sources", world::object_lists(source_fields().schema()),
+      [](People& people, const json& list, const FieldLocation& place) {
+        people.sources =
+            read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
+              return read_source(value, item);
+            });
+      },
+      "People who come in by an exit, or along a segment, until a hazard reaches it.");
+  table.add_read(
+      "spots", world::open_lists(0, points().rules),
+      [](People& people, const json& list, const FieldLocation& /*place*/) {
+        people.spots = world::read_points(list);
+      },
+      "Destinations of strollers; default: 24 points of their area.");
+}
+
+}  // namespace
+
+const FieldTable<People>& people_fields() {
+  static const FieldTable<People> fields = [] {
+    FieldTable<People> table;
+    add_lists(table);
+    add_speed(table);
+    table.add("in_groups", "", "", fields::numbers(0, 1), at(&People::in_groups),
+              "Share of people who walk in pairs and small groups.");
+    table
+        .add_read(
+            "pre_movement_s", sampled_values(kPreMovementS),
+            [](People& people, const json& value, const FieldLocation& place) {
+              people.pre_movement_s = read_sampled(value, kPreMovementS, place);
+            },
+            "Time from when people notice a hazard until they flee: a number holds for everybody, "
+            "and social groups leave together. Default: lognormal, median 2.01 s, standard "
+            "deviation of the logarithm 0.5, at most 6 s; an assumption, not a recommendation.")
+        .measured_in("s");
+    table
+        .add_read("evacuation_speed_mps", evacuation_speeds(), set_evacuation_speed,
+                  "Free speed of people who flee: a number is the mean of a normal distribution "
+                  "with a standard deviation of 12.5 %; \"unchanged\" keeps the speed of before. "
+                  "Default: 2.")
+        .measured_in("m/s");
+    return table;
+  }();
+  return fields;
+}
+
+}  // namespace throng::scenarios

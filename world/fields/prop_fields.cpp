@@ -1,0 +1,248 @@
+#include "world/fields/prop_fields.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "base/compute/random.h"
+#include "base/geometry/angle.h"
+#include "base/geometry/polygon.h"
+#include "base/geometry/rectangle.h"
+#include "base/geometry/triangulate.h"
+#include "world/fields/document_values.h"
+#include "world/scenario.h"
+
+namespace throng::world {
+
+using fields::at;
+using fields::FieldLocation;
+using fields::FieldTable;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kMinScale = 0.2;
+constexpr double kMaxScale = 5;
+constexpr int kMaxScattered = 2000;
+
+/// Whether the convex outlines share a point (separating axes).
+bool overlap(std::span<const Eigen::Vector2d> a, std::span<const Eigen::Vector2d> b) {
+  const auto separated_by_edge_of = [](std::span<const Eigen::Vector2d> of,
+                                       std::span<const Eigen::Vector2d> other) {
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const Eigen::Vector2d edge = of[(i + 1) % of.size()] - of[i];
+      const Eigen::Vector2d out(edge.y(), -edge.x());
+      if (std::all_of(other.begin(), other.end(),
+                      [&](const Eigen::Vector2d& p) { return out.dot(p - of[i]) > 0; })) {
+        return true;
+      }
+    }
+    return false;
+  };
+  return !separated_by_edge_of(a, b) && !separated_by_edge_of(b, a);
+}
+
+bool stands_in(const Building& building, const std::array<Eigen::Vector2d, 4>& corners) {
+  for (const auto& triangle : geometry::triangulate(building.footprint)) {
+    const std::array<Eigen::Vector2d, 3> part = {building.footprint[triangle[0]],
+                                                 building.footprint[triangle[1]],
+                                                 building.footprint[triangle[2]]};
+    if (geometry::signed_area(part) > 1e-9 && overlap(part, corners)) return true;
+  }
+  return false;
+}
+
+bool blocks(const Exit& exit, const std::array<Eigen::Vector2d, 4>& corners) {
+  const Eigen::Vector2d depth = kClearOfExitsM * exit.outward;
+  std::array<Eigen::Vector2d, 4> clear = {exit.from - depth, exit.to - depth, exit.to + depth,
+                                          exit.from + depth};
+  if (geometry::signed_area(clear) < 0) std::reverse(clear.begin(), clear.end());
+  return overlap(clear, corners);
+}
+
+struct Refusal {
+  std::string found;
+  std::string expected;
+};
+
+/// Why a prop may not stand where it does.
+std::optional<Refusal> find_refusal(const Prop& prop, const Scenario& scenario) {
+  const auto corners = prop_footprint(prop);
+  for (const Building& building : scenario.buildings) {
+    if (building.footprint.size() < 3 || !stands_in(building, corners)) continue;
+    return Refusal{fmt::format("a place in building \"{}\"", building.id),
+                   "a place outside every building"};
+  }
+  for (const Exit& exit : scenario.exits) {
+    if (exit.width_m() <= 0 || !blocks(exit, corners)) continue;
+    return Refusal{
+        fmt::format("a position that blocks exit \"{}\"", exit.id),
+        fmt::format("a place at least {} m in front of or behind every exit", kClearOfExitsM)};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  names.reserve(prop_types().size());
+  for (const PropType& type : prop_types()) names.emplace_back(type.name);
+  return names;
+}
+
+PropKind kind_named(const json& name) {
+  const std::vector<std::string> names = kind_names();
+  return static_cast<PropKind>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+std::uint32_t look_hash(int seed, std::uint64_t index) {
+  return Random(static_cast<std::uint64_t>(seed), Stream::environment, index).bits();
+}
+
+const FieldTable<Prop>& prop_fields() {
+  static const FieldTable<Prop> fields = [] {
+    FieldTable<Prop> table;
+    table
+        .add_read(
+            "kind", prop_kinds(),
+            [](Prop& prop, const json& value, const FieldLocation& /*place*/) {
+              prop.kind = kind_named(value);
+            },
+            "Kind of prop.")
+        .required();
+    table.add("position", "", "m", points(), at(&Prop::position), "Position of the prop.")
+        .required();
+    table
+        .add_read(
+            "yaw_deg", headings_deg(),
+            [](Prop& prop, const json& value, const FieldLocation& /*place*/) {
+              prop.yaw_rad = value.get<double>() * kDegree;
+            },
+            "Heading from +x, counter-clockwise.")
+        .measured_in("°")
+        .with_default(0);
+    table.add("scale", "", "", prop_scales(), at(&Prop::scale),
+              "Size relative to the usual one.");
+    table
+        .add("look", "", "", fields::integers(0, kMaxId), at(&Prop::look),
+             "Number that chooses colors and shape; default: by the prop's index in the list.")
+        .without_default();
+    return table;
+  }();
+  return fields;
+}
+
+/// Props that a seed places.
+struct Scatter {
+  std::vector<PropKind> kinds;
+  std::vector<Eigen::Vector2d> area;
+  int count = 0;
+  int seed = 0;
+  double apart_m = 3;
+  std::optional<double> yaw_deg;
+};
+
+const FieldTable<Scatter>& scatter_fields() {
+  static const FieldTable<Scatter> fields = [] {
+    FieldTable<Scatter> table;
+    table
+        .add_read(
+            "area", polygons(),
+            [](Scatter& scatter, const json& value, const FieldLocation& place) {
+              scatter.area = read_points(value);
+              check_simple(scatter.area, place);
+            },
+            "Corners of the area, in order; the edges must not cross.")
+        .measured_in("m")
+        .required();
+    table
+        .add_read(
+            "kinds", open_lists(1, prop_kinds().rules),
+            [](Scatter& scatter, const json& value, const FieldLocation& /*place*/) {
+              for (const json& name : value) scatter.kinds.push_back(kind_named(name));
+            },
+            "Kinds to choose from.")
+        .required();
+    table
+        .add("count", "", "", fields::integers(1, kMaxScattered), at(&Scatter::count),
+             "Max number; props that find no space are left out.")
+        .required();
+    table
+        .add("seed", "", "", fields::integers(0, kMaxId), at(&Scatter::seed),
+             "Seed of positions and looks.")
+        .required();
+    table.add("apart_m", "", "m", fields::numbers(0, 1000), at(&Scatter::apart_m),
+              "Min distance from other props.");
+    table.add("yaw_deg", "", "°", headings_deg(), at(&Scatter::yaw_deg),
+              "Heading from +x, counter-clockwise; default: any.");
+    return table;
+  }();
+  return fields;
+}
+
+/// Darts thrown at the area: one is kept when it is clear of everything and `apart_m` away from
+/// the others.
+void scatter_over(const Scatter& scatter, const Scenario& scenario, std::vector<Prop>& props) {
+  const auto& [kinds, area, count, seed, apart_m, yaw_deg] = scatter;
+  const auto [low, high] = geometry::bounding_box(area);
+  constexpr int kDartsPerProp = 30;
+  int placed = 0;
+  for (int dart = 0; dart < kDartsPerProp * count && placed < count; ++dart) {
+    Random random(static_cast<std::uint64_t>(seed), Stream::environment,
+                  static_cast<std::uint64_t>(dart) + 1);
+    Prop prop;
+    prop.position = {random.uniform(low.x(), high.x()), random.uniform(low.y(), high.y())};
+    prop.kind = kinds[random.below(static_cast<std::uint32_t>(kinds.size()))];
+    prop.yaw_rad = yaw_deg ? *yaw_deg * kDegree : random.uniform(0, 2 * std::numbers::pi);
+    prop.scale = random.uniform(0.9, 1.15);
+    prop.look = random.bits();
+    const bool close = std::any_of(props.begin(), props.end(), [&](const Prop& other) {
+      return (other.position - prop.position).norm() < scatter.apart_m;
+    });
+    if (close || geometry::distance_to(area, prop.position) > 0 || find_refusal(prop, scenario))
+      continue;
+    props.push_back(prop);
+    ++placed;
+  }
+}
+
+}  // namespace
+
+fields::Values prop_kinds() { return fields::one_of_words(kind_names()); }
+
+fields::Values prop_scales() { return fields::numbers(kMinScale, kMaxScale); }
+
+fields::Values prop_lists() { return object_lists(prop_fields().schema()); }
+
+fields::Values scatter_lists() { return object_lists(scatter_fields().schema()); }
+
+std::vector<Prop> read_props(const json& list, const Scenario& scenario,
+                             const FieldLocation& place) {
+  return read_list(list, place, [&](const json& value, const FieldLocation& item, std::size_t i) {
+    Prop prop;
+    prop.look = look_hash(0, i);
+    const std::size_t problems = place.problems.size();
+    prop_fields().read_checked(value, prop, item);
+    if (place.problems.size() > problems) return prop;
+    if (const auto refusal = find_refusal(prop, scenario)) {
+      item.below("position").reject(refusal->found, refusal->expected);
+    }
+    return prop;
+  });
+}
+
+void scatter_props(const json& list, Scenario& scenario, const FieldLocation& place) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Scatter scatter;
+    const std::size_t problems = place.problems.size();
+    scatter_fields().read_checked(list[i], scatter, place.below(i));
+    if (place.problems.size() == problems) scatter_over(scatter, scenario, scenario.props);
+  }
+}
+
+}  // namespace throng::world
