@@ -31,7 +31,7 @@ using nlohmann::json;
 namespace {
 
 bool is_own(const Caller& caller, const LiveFlight& flight) {
-  return sees_all(caller) || flight.owner() == caller.key_id;
+  return sees_all(caller) || flight.spec().owner == caller.key_id;
 }
 
 /// The caller's flight that the path names. Throws HttpError 404.
@@ -46,26 +46,27 @@ std::shared_ptr<LiveFlight> find_flight(LiveFlights& live, const Caller& caller,
 }
 
 json flight_json(const LiveFlight& flight) {
-  const LiveState state = flight.state();
-  const std::string self = "/v1/live/" + flight.id();
+  const LiveFlightSpec& spec = flight.spec();
+  const LiveProgress progress = flight.progress();
+  const std::string self = "/v1/live/" + spec.id;
   json drones = json::array();
-  for (const live::FlownDrone& drone : flight.drones()) drones.push_back(drone.id);
-  json value = {{"id", flight.id()},
-                {"name", flight.name()},
-                {"state", to_string(state)},
-                {"time_s", flight.time_s()},
-                {"viewers", flight.viewers()},
+  for (const live::FlownDrone& drone : spec.drones) drones.push_back(drone.id);
+  json value = {{"id", spec.id},
+                {"name", spec.name},
+                {"state", to_string(progress.state)},
+                {"time_s", progress.time_s},
+                {"viewers", flight.audience().viewers},
                 {"drones", std::move(drones)},
-                {"recorded", flight.is_recorded()},
+                {"recorded", spec.is_recorded},
                 {"result", nullptr},
                 {"error", nullptr},
                 {"links",
                  {{"self", self},
                   {"stream", self + "/stream"},
-                  {"recording", flight.is_recorded() ? json(self + "/recording") : json()}}}};
-  if (state == LiveState::ended) value["result"] = flight.outcome();
-  if (state == LiveState::failed) {
-    const json outcome = flight.outcome();
+                  {"recording", spec.is_recorded ? json(self + "/recording") : json()}}}};
+  const json& outcome = progress.outcome;
+  if (progress.state == LiveState::ended) value["result"] = outcome;
+  if (progress.state == LiveState::failed) {
     value["error"] = error_json(outcome.at("kind"), outcome.at("message"), {});
   }
   return value;
@@ -126,7 +127,7 @@ void begin_live(JobQueue& queue, LiveFlights& live, const Caller& caller, const 
   try {
     const std::int64_t max_bytes = is_recorded ? left_to_recording(queue, caller) : 0;
     const auto flight = live.begin(job, caller.key_id, is_recorded, max_bytes);
-    response.set_header("Location", "/v1/live/" + flight->id());
+    response.set_header("Location", "/v1/live/" + flight->spec().id);
     write_json(response, 201, flight_json(*flight));
   } catch (const LiveFlightsFull& full) {
     response.set_header("Retry-After", "10");
@@ -190,7 +191,7 @@ void command_live(LiveFlights& live, const Caller& caller, const Request& reques
   const json body = parse_json_body(request);
   live::Commands commands;
   try {
-    commands = live::commands_from_json(body, flight->drones());
+    commands = live::commands_from_json(body, flight->spec().drones);
   } catch (const InputError& error) {
     throw HttpError{400, "the commands are wrong", error.problems()};
   }
@@ -201,7 +202,8 @@ void command_live(LiveFlights& live, const Caller& caller, const Request& reques
 void stop_live(LiveFlights& live, const Caller& caller, const Request& request,
                Response& response) {
   const std::shared_ptr<LiveFlight> flight = find_flight(live, caller, request);
-  if (flight->state() != LiveState::failed && flight->time_s() <= 0) {
+  const LiveProgress progress = flight->progress();
+  if (progress.state != LiveState::failed && progress.time_s <= 0) {
     throw HttpError{409, "the flight has not begun: nobody has looked at it yet"};
   }
   if (!flight->stop()) throw HttpError{503, "the flight does not answer; try again"};
@@ -211,25 +213,24 @@ void stop_live(LiveFlights& live, const Caller& caller, const Request& request,
 void send_live_recording(LiveFlights& live, const Caller& caller, const Request& request,
                          Response& response) {
   const std::shared_ptr<LiveFlight> flight = find_flight(live, caller, request);
-  if (!flight->is_recorded()) {
+  if (!flight->spec().is_recorded) {
     throw HttpError{404, "the flight was not recorded: it was begun without \"record\": true"};
   }
-  const LiveState state = flight->state();
-  if (state == LiveState::starting || state == LiveState::flying) {
+  if (flight->progress().is_under_way()) {
     throw HttpError{409, "the flight goes on; its recording is there when it has ended"};
   }
   if (!std::filesystem::exists(flight->recording())) {
     throw HttpError{404, "nothing was recorded; the flight's result says why"};
   }
   response.set_header("Content-Disposition",
-                      fmt::format("attachment; filename=\"{}.mcap\"", slug(flight->name())));
+                      fmt::format("attachment; filename=\"{}.mcap\"", slug(flight->spec().name)));
   answer_with_file(request, response, flight->recording(), "application/octet-stream",
-                   fmt::format("\"{}\"", flight->id()));
+                   fmt::format("\"{}\"", flight->spec().id));
 }
 
 void remove_live(LiveFlights& live, const Caller& caller, const Request& request,
                  Response& response) {
-  if (!live.remove(find_flight(live, caller, request)->id()))
+  if (!live.remove(find_flight(live, caller, request)->spec().id))
     throw HttpError{404, "already removed"};
   response.status = 204;
 }

@@ -22,10 +22,6 @@ namespace {
 
 constexpr std::size_t kFlightIdLength = 16;
 
-bool is_under_way(const LiveFlight& flight) {
-  return flight.state() == LiveState::starting || flight.state() == LiveState::flying;
-}
-
 /// The memory that a flight needs, which holds the run and draws small images of one camera.
 std::int64_t flight_memory_mib(const jobs::ResolvedJob& job) {
   jobs::JobSpec small = job.spec();
@@ -62,9 +58,9 @@ void LiveFlights::require_room(const std::string& owner, std::int64_t memory_mib
   std::size_t count = 0;
   std::size_t of_owner = 0;
   for (const auto& [id, flight] : flights_) {
-    if (!is_under_way(*flight)) continue;
+    if (!flight->progress().is_under_way()) continue;
     ++count;
-    if (flight->owner() == owner) ++of_owner;
+    if (flight->spec().owner == owner) ++of_owner;
   }
   if (of_owner >= limits_.max_per_owner) {
     throw LiveFlightsFull{fmt::format("a key may have {} live flights at once: end one first",
@@ -99,9 +95,9 @@ std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
   const std::lock_guard lock(mutex_);
   require_room(owner, spec.memory_mib);
   auto flight = std::make_shared<LiveFlight>(std::move(spec));
-  flights_.emplace(flight->id(), flight);
+  flights_.emplace(flight->spec().id, flight);
   begun_.notify_all();
-  spdlog::info("live flight {} begun", flight->id());
+  spdlog::info("live flight {} begun", flight->spec().id);
   return flight;
 }
 
@@ -121,7 +117,8 @@ std::vector<std::shared_ptr<LiveFlight>> LiveFlights::all() const {
 std::int64_t LiveFlights::disk_bytes_of(const std::string& owner) const {
   std::int64_t bytes = 0;
   for (const std::shared_ptr<LiveFlight>& flight : all()) {
-    if (flight->owner() == owner) bytes += measure_disk_bytes(flight->recording().parent_path());
+    if (flight->spec().owner != owner) continue;
+    bytes += measure_disk_bytes(flight->recording().parent_path());
   }
   return bytes;
 }
@@ -143,17 +140,18 @@ bool LiveFlights::remove(const std::string& id) {
 int LiveFlights::remove_all_of(const std::set<std::string>& owners) {
   int removed = 0;
   for (const std::shared_ptr<LiveFlight>& flight : all()) {
-    if (owners.contains(flight->owner()) && remove(flight->id())) ++removed;
+    if (owners.contains(flight->spec().owner) && remove(flight->spec().id)) ++removed;
   }
   return removed;
 }
 
 void LiveFlights::end_unseen() {
   for (const std::shared_ptr<LiveFlight>& flight : all()) {
-    const auto patience = is_under_way(*flight) ? limits_.unseen : limits_.ended;
-    if (flight->unseen() < patience) continue;
-    if (is_under_way(*flight)) spdlog::info("live flight {}: nobody looks", flight->id());
-    remove(flight->id());
+    const bool is_under_way = flight->progress().is_under_way();
+    const auto patience = is_under_way ? limits_.unseen : limits_.ended;
+    if (flight->audience().unseen(limits_.now) < patience) continue;
+    if (is_under_way) spdlog::info("live flight {}: nobody looks", flight->spec().id);
+    remove(flight->spec().id);
   }
 }
 

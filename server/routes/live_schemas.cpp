@@ -1,4 +1,4 @@
-#include "server/live/live_flight.h"
+#include "server/live/kept_messages.h"
 #include "server/routes/resources.h"
 #include "spec/live/commands.h"
 

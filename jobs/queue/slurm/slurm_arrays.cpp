@@ -50,7 +50,7 @@ std::vector<TaskResult> SlurmArrays::run(const JobFolder& folder, std::span<cons
   }
   // The nodes are elsewhere: a relative path means nothing to them.
   const JobFolder absolute(std::filesystem::absolute(folder.path()));
-  return SlurmBatch(*shared_, absolute, tasks, on_progress, std::move(stop), share).run();
+  return SlurmBatch({*shared_, absolute, tasks, on_progress, std::move(stop), share}).run();
 }
 
 std::string check_slurm(const SlurmOptions& options) {

@@ -12,6 +12,8 @@
 #include <memory>
 #include <mutex>
 #include <set>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,16 @@ struct SlurmShared {
   std::atomic<std::size_t> max_tasks = kMaxArrayTasks;
   std::atomic<bool> leaves_tasks = false;
   std::shared_ptr<TaskMeters> meters = {};  ///< may be null
+};
+
+/// One call of run(): its arguments, which outlive all that is made for it.
+struct SlurmCall {
+  SlurmShared& shared;
+  const JobFolder& folder;
+  std::span<const Task> tasks;
+  const Executor::OnProgress& on_progress;
+  std::stop_token stop;
+  const Share& share;
 };
 
 /// Tasks that publish datasets run on this machine, so that nodes need no access to other networks

@@ -148,7 +148,7 @@ TEST_F(KeysTest, RecordingsOfLiveFlightsCountForTheDiskOfAKey) {
       client().Post("/v1/live", with(token), another.dump(), "application/json");
   expect_problem(refused, 429);
   EXPECT_THAT(refused->body, HasSubstr("without a recording"));
-  EXPECT_TRUE(service.live().remove(flight->id()));
+  EXPECT_TRUE(service.live().remove(flight->spec().id));
   EXPECT_EQ(submitted()->status, 201);
 }
 

@@ -42,8 +42,8 @@ TEST(LiveFlights, ThoseOfRevokedKeysEnd) {
   const auto of_alice = flights.begin(resolved(), "alice");
   const auto of_bob = flights.begin(resolved(), "bob");
   EXPECT_EQ(flights.remove_all_of({"alice", "carol"}), 1);
-  EXPECT_EQ(flights.find(of_alice->id()), nullptr);
-  EXPECT_NE(flights.find(of_bob->id()), nullptr);
+  EXPECT_EQ(flights.find(of_alice->spec().id), nullptr);
+  EXPECT_NE(flights.find(of_bob->spec().id), nullptr);
 }
 
 TEST(LiveFlights, ARecordingHasTheBytesThatAreLeftToItsKey) {
@@ -60,12 +60,12 @@ TEST(LiveFlights, CommandsGoInAndMessagesComeOut) {
   const jobs::TemporaryFolder folder;
   LiveFlights flights(folder.path(), limits_with(folder, kUntilStop));
   const auto flight = flights.begin(resolved(), "alice");
-  EXPECT_EQ(flight->name(), "flown");
-  ASSERT_EQ(flight->drones().size(), 1U);
-  EXPECT_EQ(flight->drones()[0].id, "d1");
-  ASSERT_TRUE(wait_until([&] { return flight->state() == LiveState::flying; }));
+  EXPECT_EQ(flight->spec().name, "flown");
+  ASSERT_EQ(flight->spec().drones.size(), 1U);
+  EXPECT_EQ(flight->spec().drones[0].id, "d1");
+  ASSERT_TRUE(wait_until([&] { return flight->progress().state == LiveState::flying; }));
   LiveFlight::Viewer viewer(flight);
-  EXPECT_EQ(flight->viewers(), 1);
+  EXPECT_EQ(flight->audience().viewers, 1);
   EXPECT_EQ(viewer.next(), live::framed({live::MessageType::hello, "{}"}));
   live::Commands commands;
   commands.sequence = 3;
@@ -74,8 +74,8 @@ TEST(LiveFlights, CommandsGoInAndMessagesComeOut) {
   commands.drones.back().beacon = true;
   EXPECT_TRUE(flight->command(commands));
   EXPECT_TRUE(flight->stop());
-  EXPECT_EQ(flight->state(), LiveState::ended);
-  EXPECT_EQ(flight->outcome(), json({{"a", 1}}));
+  EXPECT_EQ(flight->progress().state, LiveState::ended);
+  EXPECT_EQ(flight->progress().outcome, json({{"a", 1}}));
   EXPECT_EQ(viewer.next(), live::framed({live::MessageType::result, R"({"a":1})"}));
   EXPECT_EQ(viewer.next(), "");
   EXPECT_FALSE(flight->command(commands));
@@ -94,16 +94,16 @@ TEST(LiveFlights, OneThatIsRecordedIsAskedTo) {
   std::filesystem::path file;
   {
     const auto flight = flights.begin(resolved(), "alice", true);
-    EXPECT_TRUE(flight->is_recorded());
+    EXPECT_TRUE(flight->spec().is_recorded);
     EXPECT_TRUE(flight->stop());
     file = flight->recording();
     EXPECT_EQ(read_file(file), "--record 77\n");
-    flights.remove(flight->id());
+    flights.remove(flight->spec().id);
     EXPECT_TRUE(std::filesystem::exists(file)) << "while somebody has the flight";
   }
   EXPECT_FALSE(std::filesystem::exists(file));
   const auto other = flights.begin(resolved(), "alice");
-  EXPECT_FALSE(other->is_recorded());
+  EXPECT_FALSE(other->spec().is_recorded);
   EXPECT_TRUE(other->stop());
   EXPECT_EQ(read_file(other->recording()), " \n");
 }
@@ -115,8 +115,8 @@ TEST(LiveFlights, AProcessThatDiesFailsItsFlight) {
     LiveFlights flights(folder.path(), limits_with(folder, work));
     const auto flight = flights.begin(resolved(), "alice");
     LiveFlight::Viewer viewer(flight);
-    ASSERT_TRUE(wait_until([&] { return flight->state() == LiveState::failed; })) << work;
-    const std::string text = flight->outcome().at("message");
+    ASSERT_TRUE(wait_until([&] { return flight->progress().state == LiveState::failed; })) << work;
+    const std::string text = flight->progress().outcome.at("message");
     EXPECT_NE(text.find(message), std::string::npos) << text;
     std::string seen;
     for (std::string bytes = viewer.next(); !bytes.empty(); bytes = viewer.next()) seen += bytes;
@@ -135,14 +135,14 @@ TEST(LiveFlights, OneThatNobodyLooksAtEnds) {
   const LiveFlight::Viewer viewer(seen);
   // When the second is gone, all were looked at since the time of the first was up.
   for (int i = 0; i < 2; ++i) {
-    const std::string unseen = flights.begin(resolved(), "alice")->id();
+    const std::string unseen = flights.begin(resolved(), "alice")->spec().id;
     clock.advance(limits.unseen - 1ms);
     const int asked = clock.asked();
     ASSERT_TRUE(wait_until([&] { return clock.asked() > asked + 3; }));  // once a look
     EXPECT_NE(flights.find(unseen), nullptr);
     clock.advance(1ms);
     EXPECT_TRUE(wait_until([&] { return flights.find(unseen) == nullptr; }));
-    EXPECT_EQ(flights.find(seen->id()), seen);
+    EXPECT_EQ(flights.find(seen->spec().id), seen);
   }
 }
 
@@ -150,11 +150,11 @@ TEST(LiveFlights, ARemovedOneTellsItsViewersAndLeavesNothingBehind) {
   const jobs::TemporaryFolder folder;
   LiveFlights flights(folder.path(), limits_with(folder, kUntilStop));
   auto flight = flights.begin(resolved(), "alice");
-  ASSERT_TRUE(wait_until([&] { return flight->state() == LiveState::flying; }));
+  ASSERT_TRUE(wait_until([&] { return flight->progress().state == LiveState::flying; }));
   {
     LiveFlight::Viewer viewer(flight);
-    EXPECT_TRUE(flights.remove(flight->id()));
-    EXPECT_FALSE(flights.remove(flight->id()));
+    EXPECT_TRUE(flights.remove(flight->spec().id));
+    EXPECT_FALSE(flights.remove(flight->spec().id));
     EXPECT_NE(viewer.next().find("was removed"), std::string::npos);
     EXPECT_EQ(viewer.next(), "");
   }
@@ -174,7 +174,7 @@ TEST(LiveFlights, AreLimited) {
   EXPECT_THROW(flights.begin(resolved(), "alice"), LiveFlightsFull);
   const auto third = flights.begin(resolved(), "bob");
   EXPECT_THROW(flights.begin(resolved(), "bob"), LiveFlightsFull);
-  flights.remove(first->id());
+  flights.remove(first->spec().id);
   EXPECT_NO_THROW(flights.begin(resolved(), "bob"));
   EXPECT_EQ(flights.all().size(), 3U);
 }
