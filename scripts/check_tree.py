@@ -22,7 +22,6 @@ RULES = [
     ("cmake/*", 16),
     ("render/shaders/*.glsl", 32),
     ("crowd/models/ttc_posterior.csv", 64),
-    ("base/schemas/*.schema.json", 64),
     ("spec/*.json", 96),
     ("python/throng/layouts.json", 16),
     ("skinning/assets/*.json", 16),

@@ -29,7 +29,7 @@ FILES = {
     "character": ("spec/skinning/character_description.cpp", "people.md#characters-of-your-own"),
     "calibration": ("spec/calibration/request.cpp", "calibration.md"),
     "camera": ("spec/calibration/camera_file.cpp", "calibration.md"),
-    "experiments": ("base/schemas/experiments.schema.json", "validation.md"),
+    "experiments": ("spec/crowd/experiment_fields.cpp", "validation.md"),
 }
 
 
@@ -196,6 +196,9 @@ def file_page(throng, kind):
     is_schema = file.endswith(".json")
     text = (ROOT / file).read_text(encoding="utf-8") if is_schema else subprocess.check_output([throng, "schema", kind])
     document = json.loads(text)
+    if kind == "study":  # jobs have a page of their own
+        for part in ("crowd", "drones"):
+            document["definitions"][part] = {"description": f"As `{part}` of a job (docs/reference/job.md)."}
     schema = Schema(document, document.get("definitions", {}))
     text = f"# Fields of a file: {kind}\n\n{NOTE.format(f'`{file}`')}"
     text += f"[{task.partition('#')[0]}](../{task}) explains the task. `throng schema {kind}` prints the schema, "

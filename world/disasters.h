@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-
 namespace throng::world {
 
 enum class DisasterKind : std::uint8_t { explosion, fire, attacker, collapse, gas };

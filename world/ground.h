@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-
 namespace throng::world {
 
 /// A polygon with a material of its own. Corners counter-clockwise seen from above.

@@ -67,4 +67,21 @@ double distance_to(std::span<const Vector2d> corners, const Vector2d& point) {
   return std::max(0.0, signed_distance_to(corners, point));
 }
 
+bool touch(std::span<const Vector2d> a, std::span<const Vector2d> b) {
+  const auto has_any = [](std::span<const Vector2d> polygon, std::span<const Vector2d> points) {
+    constexpr double kRoundingM = 1e-9;
+    return std::any_of(points.begin(), points.end(), [&](const Vector2d& point) {
+      return distance_to(polygon, point) <= kRoundingM;
+    });
+  };
+  if (has_any(a, b) || has_any(b, a)) return true;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const Vector2d& a_next = a[(i + 1) % a.size()];
+      if (segments_cross(a[i], a_next, b[j], b[(j + 1) % b.size()])) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace throng::geometry

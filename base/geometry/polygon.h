@@ -65,6 +65,10 @@ double signed_distance_to(std::span<const Eigen::Vector2d> corners, const Eigen:
 /// Distance from a point to the area of a polygon (m); 0 inside.
 double distance_to(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& point);
 
+/// Whether two polygons have a common point, be it only on their outlines; a line is a polygon of
+/// two corners.
+bool touch(std::span<const Eigen::Vector2d> a, std::span<const Eigen::Vector2d> b);
+
 /// Stores the part of a polygon on the inner side of a line in `kept` (Sutherland and Hodgman
 /// 1974). `beyond` has the signed distance of each corner from the line, in any unit, positive on
 /// the outer side. The result for a polygon that is not convex may have coincident edges, which do

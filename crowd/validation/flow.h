@@ -5,17 +5,13 @@
 #include <vector>
 
 #include "crowd/validation/scene.h"
+#include "spec/crowd/experiment.h"
 
 namespace throng::validation {
 
 /// Mean speed (m/s) at a density (1/m^2) by Weidmann (1993, Schriftenreihe des IVT 90), in Kladek's
 /// formula; 0 from 5.4 1/m^2 on.
 double weidmann_speed_mps(double density);
-
-struct DensitySpeed {
-  double density = 0;  ///< 1/m^2
-  double speed_mps = 0;
-};
 
 /// A corridor in the form of a ring.
 struct Ring {

@@ -67,9 +67,8 @@ class StudyReader {
   }
 
   bool has_problem(const std::string& pointer) const {
-    return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& problem) {
-      return problem.where.starts_with(pointer);
-    });
+    return std::any_of(problems_.begin(), problems_.end(),
+                       [&](const Problem& problem) { return problem.where.starts_with(pointer); });
   }
 
   void reject(const std::string& pointer, std::string found, std::string expected) {

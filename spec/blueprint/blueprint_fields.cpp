@@ -29,8 +29,7 @@ void take_goals(FieldRules& exits) {
   properties.erase("goals");
   properties["open"]["description"] =
       "False closes the door for the whole run: people choose another, drones lead nobody there.";
-  properties["closes_at_s"]["description"] =
-      "Time from which nobody passes an open door any more.";
+  properties["closes_at_s"]["description"] = "Time from which nobody passes an open door any more.";
 }
 
 /// Permits a box instead of an outline in the schema of a list.
@@ -100,8 +99,8 @@ std::vector<FieldRules> blueprint_rules() {
     rules.push_back(*field);
     if (field->path == "exits") take_goals(rules.back());
     if (field->path != "disasters") continue;
-    rules.back() = rules_named("disasters", danger_lists(),
-                               "Hazards and their effects on the crowd.");
+    rules.back() =
+        rules_named("disasters", danger_lists(), "Hazards and their effects on the crowd.");
   }
   rules.push_back(rules_named("people", fields::object_with(people_fields().schema()),
                               "People and their behavior."));
@@ -116,8 +115,7 @@ ordered_json blueprint_schema() {
   all.reserve(rules.size());
   for (const FieldRules& field : rules) all.push_back(&field);
   ordered_json schema = world::extendable_schema(
-      "throng blueprint",
-      "A scenario with its people and hazards in one file (docs/blueprint.md).",
+      "throng blueprint", "A scenario with its people and hazards in one file (docs/blueprint.md).",
       fields::schema_for(all));
   for (const BoxList& list : kBoxLists) add_box(list, schema);
   return schema;

@@ -1,5 +1,5 @@
-// Fields of a blueprint: those of a scenario, except that a blueprint has people instead of the files
-// of a crowd, boxes beside outlines, and rows of props.
+// Fields of a blueprint: those of a scenario, except that a blueprint has people instead of the
+// files of a crowd, boxes beside outlines, and rows of props.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,9 +18,10 @@ struct BoxList {
   const char* pointer;
   const char* outline;  ///< field of an item that a box replaces
 };
-inline constexpr std::array<BoxList, 4> kBoxLists = {
-    {{"/buildings", "footprint"}, {"/ground/areas", "corners"}, {"/scatter", "area"},
-     {"/people/groups", "area"}}};
+inline constexpr std::array<BoxList, 4> kBoxLists = {{{"/buildings", "footprint"},
+                                                      {"/ground/areas", "corners"},
+                                                      {"/scatter", "area"},
+                                                      {"/people/groups", "area"}}};
 
 /// A rectangle [x0, y0, x1, y1], in m.
 struct Box {

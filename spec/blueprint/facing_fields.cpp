@@ -59,10 +59,9 @@ ordered_json form(const char* help, const FieldTable<Facing>& table) {
 }  // namespace
 
 fields::Values facing_values() {
-  ordered_json forms =
-      ordered_json::array({fields::one_of_words(std::array{kRandom}).rules,
-                           form("They look at a point.", towards_fields()),
-                           form("They look in a direction.", direction_fields())});
+  ordered_json forms = ordered_json::array({fields::one_of_words(std::array{kRandom}).rules,
+                                            form("They look at a point.", towards_fields()),
+                                            form("They look in a direction.", direction_fields())});
   return {{{"type", {"string", "object"}}, {"anyOf", std::move(forms)}}, kExpectedFacing};
 }
 

@@ -56,8 +56,7 @@ void add_speed(FieldTable<Part>& table) {
 
 template <typename Part>
 void add_count(FieldTable<Part>& table, int max_people) {
-  table
-      .add("count", "", "", fields::integers(1, max_people), at(&Part::count), "Number of people.")
+  table.add("count", "", "", fields::integers(1, max_people), at(&Part::count), "Number of people.")
       .required();
 }
 
@@ -164,8 +163,7 @@ const FieldTable<Source>& source_fields() {
               "Time until which they come.");
     table.add_read("table", arrivals(), set_arrivals,
                    "Arrivals as [seconds, people], for example of trains, instead of per_minute.");
-    table.add("towards", "", "", exit_names(), at(&Source::towards_id),
-              "Exit that they go to.");
+    table.add("towards", "", "", exit_names(), at(&Source::towards_id), "Exit that they go to.");
     add_speed(table);
     return table;
   }();

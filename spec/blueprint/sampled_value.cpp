@@ -74,7 +74,8 @@ void add_limits(FieldTable<SampledValue>& table, const SampledLimits& limits) {
   const fields::Values numbers = fields::numbers(limits.low, limits.high);
   table.add("min", "", "", numbers, fields::at(&SampledValue::min), "Lower values are not sampled.")
       .without_default();
-  table.add("max", "", "", numbers, fields::at(&SampledValue::max), "Higher values are not sampled.")
+  table
+      .add("max", "", "", numbers, fields::at(&SampledValue::max), "Higher values are not sampled.")
       .without_default();
 }
 
@@ -177,11 +178,11 @@ std::vector<Attribute> SampledValue::attributes() const {
 }
 
 fields::Values sampled_values(const SampledLimits& limits) {
-  ordered_json forms = ordered_json::array({fields::numbers(limits.low, limits.high).rules,
-                                            form("A uniform distribution.", uniform_fields(limits)),
-                                            form("A normal distribution.", normal_fields(limits)),
-                                            form("A lognormal distribution.",
-                                                 lognormal_fields(limits))});
+  ordered_json forms =
+      ordered_json::array({fields::numbers(limits.low, limits.high).rules,
+                           form("A uniform distribution.", uniform_fields(limits)),
+                           form("A normal distribution.", normal_fields(limits)),
+                           form("A lognormal distribution.", lognormal_fields(limits))});
   return {{{"type", {"number", "object"}}, {"anyOf", std::move(forms)}}, kExpected};
 }
 

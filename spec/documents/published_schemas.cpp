@@ -4,11 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json/field_table.h"
-#include "base/json/json_text.h"
-#include "base/schemas/schemas.h"
 #include "spec/blueprint/blueprint_fields.h"
 #include "spec/calibration/camera_file.h"
 #include "spec/calibration/request.h"
+#include "spec/crowd/experiment.h"
 #include "spec/job/job_fields.h"
 #include "spec/job/schema.h"
 #include "spec/sim/airframe_fields.h"
@@ -44,38 +43,34 @@ ordered_json airframe() {
                                  sim::airframe_fields().schema());
 }
 
-/// A schema that is made from a table of fields.
+/// A schema, made from a table of fields.
 struct Made {
   std::string_view name;
   ordered_json (*schema)();
 };
 
-constexpr std::array<Made, 8> kMade = {{{"job", job},
+constexpr std::array<Made, 9> kMade = {{{"job", job},
                                         {"scenario", world::scenario_schema},
                                         {"blueprint", scenarios::blueprint_schema},
                                         {"study", study},
                                         {"airframe", airframe},
                                         {"calibration", calibrate::request_schema},
                                         {"camera", calibrate::camera_file_schema},
-                                        {"character", skinning::character_schema}}};
+                                        {"character", skinning::character_schema},
+                                        {"experiments", validation::experiments_schema}}};
 
 }  // namespace
 
 std::vector<std::string_view> schema_names() {
   std::vector<std::string_view> names;
-  names.reserve(kMade.size() + schemas::entries().size());
+  names.reserve(kMade.size());
   for (const Made& made : kMade) names.push_back(made.name);
-  for (const schemas::Entry& entry : schemas::entries()) names.push_back(entry.name);
   return names;
 }
 
 std::string published_schema(std::string_view name) {
   for (const Made& made : kMade) {
     if (made.name == name) return fields::schema_text(made.schema());
-  }
-  for (const schemas::Entry& entry : schemas::entries()) {
-    if (entry.name != name) continue;
-    return std::string(entry.text);
   }
   return {};
 }

@@ -5,6 +5,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "spec/metrics/format_fields.h"
+
 namespace throng::jobs {
 
 using nlohmann::json;
@@ -14,26 +16,6 @@ namespace {
 constexpr const char* kRecordedFolder = "recorded";
 /// In the order of metrics::TrajectoryKind.
 constexpr std::array kKindWords = {"any", "text", "sqlite", "scb", "csv", "hdf5", "fcd", "json"};
-
-std::vector<std::string> unit_words() {
-  std::vector<std::string> words;
-  words.reserve(metrics::kLengthUnits.size());
-  for (const metrics::LengthUnit& unit : metrics::kLengthUnits) words.emplace_back(unit.word);
-  return words;
-}
-
-json unit_json(const RecordedSpec& spec) {
-  for (const metrics::LengthUnit& unit : metrics::kLengthUnits) {
-    if (spec.format.unit_m == unit.meters) return unit.word;
-  }
-  return {};
-}
-
-void set_unit(RecordedSpec& spec, const json& value, const FieldLocation& /*place*/) {
-  for (const metrics::LengthUnit& unit : metrics::kLengthUnits) {
-    if (value == unit.word) spec.format.unit_m = unit.meters;
-  }
-}
 
 json file_json(const RecordedSpec& spec) {
   return fmt::format("{}/{}", kRecordedFolder, spec.file.filename().string());
@@ -78,13 +60,7 @@ void add_file_fields(FieldTable<RecordedSpec>& table) {
                 "without it (any), "
                 "by suffix and content.")
       .without_default();
-  table.add(
-      "frame_rate_hz", "Frame rate", "Hz", numbers(0.01, 10000),
-      at(&RecordedSpec::format, &metrics::TrajectoryFormat::frames_per_s),
-      "Frames per second, if the file does not contain the rate or is wrong; with a column of "
-      "times, the rate to interpolate to.");
-  table.add("unit", "Unit", "", one_of_words(unit_words()), unit_json, set_unit,
-            "Unit of lengths in the file; default: the file's, else m.");
+  metrics::add_rate_and_unit(table, at(&RecordedSpec::format));
 }
 
 void add_column_fields(FieldTable<RecordedSpec>& table) {

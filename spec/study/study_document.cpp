@@ -157,7 +157,7 @@ std::vector<Item> read_list(const FieldTable<Item>& table, const json& value,
 }
 
 template <typename Item>
-fields::Values list_of(const FieldTable<Item>& table, const char* help) {
+fields::Values list_with(const FieldTable<Item>& table, const char* help) {
   ordered_json items = {{"description", help}, {"type", "object"}};
   items.update(table.schema());
   return fields::raw({{"type", "array"}, {"items", std::move(items)}, {"minItems", 1}},
@@ -167,7 +167,7 @@ fields::Values list_of(const FieldTable<Item>& table, const char* help) {
 void add_lists(FieldTable<StudyDocument>& table) {
   table
       .add(
-          "cases", "Cases", "", list_of(case_fields(), "A case."),
+          "cases", "Cases", "", list_with(case_fields(), "A case."),
           [](const StudyDocument&) { return json(); },
           [](StudyDocument& study, const json& value, const FieldLocation& place) {
             study.cases = read_list(case_fields(), value, place);
@@ -175,7 +175,7 @@ void add_lists(FieldTable<StudyDocument>& table) {
           "Scenarios and their conditions.")
       .required();
   table.add(
-      "policies", "Policies", "", list_of(policy_fields(), "A policy."),
+      "policies", "Policies", "", list_with(policy_fields(), "A policy."),
       [](const StudyDocument&) { return json(); },
       [](StudyDocument& study, const json& value, const FieldLocation& place) {
         study.policies = read_list(policy_fields(), value, place);
@@ -189,7 +189,8 @@ FieldTable<StudyDocument> make_fields() {
   table.add("name", "Name", "", one_line(), at(&StudyDocument::name), "Name for people.");
   table.add("seed", "Seed", "", fields::integers(0, scenarios::kMaxSeed), at(&StudyDocument::seed),
             "Seed of all runs.");
-  table.add("runs", "Runs of each", "", fields::integers(1, jobs::kMaxJobRuns), at(&StudyDocument::runs),
+  table.add("runs", "Runs of each", "", fields::integers(1, jobs::kMaxJobRuns),
+            at(&StudyDocument::runs),
             "Number of runs of each case and policy; the run of one number has the same seed in "
             "all of them.");
   table.add("baseline", "Baseline", "", ids(), at(&StudyDocument::baseline),

@@ -11,7 +11,7 @@ import unittest
 
 THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
 YARD = {
-    "$schema": "base/schemas/blueprint.schema.json",
+    "$schema": "schemas/blueprint.schema.json",
     "name": "Yard",
     "ground": {"min": [-30, -20], "max": [30, 20], "material": "pavers"},
     "inside": {"min": [-16, -12], "max": [16, 12]},

@@ -24,7 +24,8 @@ const FieldTable<Disaster>& listed_fields() {
         .add("agent", "", "", fields::integers(0, kMaxId), at(&Disaster::agent),
              "Agent of the crowd that stands for it.")
         .required();
-    table.add_all("", disaster_fields(), [](auto& disaster) -> auto& { return disaster; });
+    table.add_all(
+        "", disaster_fields(), [](auto& disaster) -> auto& { return disaster; });
     return table;
   }();
   return fields;

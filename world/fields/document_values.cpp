@@ -70,9 +70,7 @@ void set_id(std::string& id, const json& value, const FieldLocation& place) {
   }
 }
 
-GoalRef goal_named(const json& value) {
-  return {value.at(0).get<int>(), value.at(1).get<int>()};
-}
+GoalRef goal_named(const json& value) { return {value.at(0).get<int>(), value.at(1).get<int>()}; }
 
 std::vector<Eigen::Vector2d> read_points(const json& value) {
   std::vector<Eigen::Vector2d> points;

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/json/json_describe.h"
-#include "world/fields/document_values.h"
 #include "world/exit_overlap.h"
+#include "world/fields/document_values.h"
 
 namespace throng::world {
 

@@ -126,8 +126,7 @@ const FieldTable<Prop>& prop_fields() {
             "Heading from +x, counter-clockwise.")
         .measured_in("°")
         .with_default(0);
-    table.add("scale", "", "", prop_scales(), at(&Prop::scale),
-              "Size relative to the usual one.");
+    table.add("scale", "", "", prop_scales(), at(&Prop::scale), "Size relative to the usual one.");
     table
         .add("look", "", "", fields::integers(0, kMaxId), at(&Prop::look),
              "Number that chooses colors and shape; default: by the prop's index in the list.")

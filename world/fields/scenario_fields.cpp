@@ -170,10 +170,11 @@ void add_hazards(FieldTable<Scenario>& table) {
             "policies reckon with it.");
 }
 
-/// Those that stand on the ground. A row is read after the ones before it, which its rules concern.
+/// Parts on the ground. A row is read after the ones before it, which its rules concern.
 void add_parts(FieldTable<Scenario>& table) {
-  table.add_read("inside", regions(), set_inside,
-                 "People who leave it have escaped: a rectangle (min, max) or a polygon (corners).")
+  table
+      .add_read("inside", regions(), set_inside,
+                "People who leave it have escaped: a rectangle (min, max) or a polygon (corners).")
       .required();
   table
       .add_read(

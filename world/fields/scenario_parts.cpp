@@ -102,8 +102,8 @@ const FieldTable<DroneStart>& drone_fields() {
   return fields;
 }
 
-void check_start(const Eigen::Vector3d& position,
-                 const std::vector<Building>& buildings, const FieldLocation& place) {
+void check_start(const Eigen::Vector3d& position, const std::vector<Building>& buildings,
+                 const FieldLocation& place) {
   if (position.z() <= 0) {
     place.reject(describe(fields::value_json(position)), "a point above the ground (z > 0)");
   }

@@ -12,16 +12,6 @@ namespace throng::validation {
 
 namespace fs = std::filesystem;
 
-Sampled FreeSpeeds::sampled() const {
-  constexpr double kMinMps = 0.3;
-  constexpr double kMaxMps = 2.5;  // max_speed of people in scenes
-  constexpr double kSameMps = 1e-3;
-  if (stddev_mps < kSameMps) return Sampled::constant(mean_mps);
-  return Sampled::normal(mean_mps, stddev_mps)
-      .limited(std::max(kMinMps, mean_mps - 3 * stddev_mps),
-               std::min(kMaxMps, mean_mps + 3 * stddev_mps));
-}
-
 namespace {
 
 constexpr const char* kFileName = "experiments.json";

@@ -29,11 +29,20 @@ Polygon oriented(Polygon corners, bool clockwise) {
   return corners;
 }
 
+Sampled sampled(const FreeSpeeds& speeds) {
+  constexpr double kSameMps = 1e-3;
+  const auto [mean_mps, stddev_mps] = speeds;
+  if (stddev_mps < kSameMps) return Sampled::constant(mean_mps);
+  return Sampled::normal(mean_mps, stddev_mps)
+      .limited(std::max(FreeSpeeds::kMinMps, mean_mps - 3 * stddev_mps),
+               std::min(FreeSpeeds::kMaxMps, mean_mps + 3 * stddev_mps));
+}
+
 Group person(const Walk& walk, double dt_s, const FreeSpeeds& free_speeds) {
   Group group;
   group.places = {walk.places.front()};
   group.aside_m = 0;
-  group.speed = free_speeds.sampled();
+  group.speed = sampled(free_speeds);
   group.state = state_name(walk.stream);
   const double arrival_s = dt_s * static_cast<double>(walk.first_step);
   if (arrival_s >= kStepS) {
@@ -204,7 +213,7 @@ Measures Replay::walk_around(const Tested& tested, std::uint64_t seed) const {
   Ring corridor;
   corridor.radius_m = loop_.length_m / (2 * std::numbers::pi);
   corridor.width_m = loop_.width_m;
-  corridor.speed = experiment_.free_speeds.sampled();
+  corridor.speed = sampled(experiment_.free_speeds);
   Measures measures;
   for (const DensitySpeed& point : loop_.recorded) {
     measures.quantities.push_back(

@@ -14,8 +14,8 @@
 #include "base/files/resources.h"
 #include "base/schemas/json_schema.h"
 #include "spec/blueprint/blueprint_fields.h"
-#include "world/scenario.h"
 #include "world/fields/scenario_fields.h"
+#include "world/scenario.h"
 #include "world/scenarios/blueprint/blueprint.h"
 #include "world/semantic_class.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "world/scenario.h"
 #include "spec/blueprint/people.h"
+#include "world/scenario.h"
 
 namespace throng::scenarios {
 

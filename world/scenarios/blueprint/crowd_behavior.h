@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "crowd/description/description.h"
-#include "world/scenarios/blueprint/closing_doors.h"
 #include "spec/blueprint/people.h"
+#include "world/scenarios/blueprint/closing_doors.h"
 
 namespace throng::scenarios {
 

@@ -18,8 +18,8 @@
 namespace throng::scenarios {
 
 using Eigen::Vector2d;
-using nlohmann::json;
 using fields::FieldLocation;
+using nlohmann::json;
 
 namespace {
 

@@ -124,21 +124,21 @@ TEST_F(ExperimentsFile, NamesWrongFieldsOfARecording) {
   refuse(sound, "/file", 3, "text");
   refuse(sound, "/frame_rate_hz", 0, "0.01 to 10000");
   refuse(sound, "/unit", "inch", "\"cm\"");
-  refuse(sound, "/unit", 1, "text");
+  refuse(sound, "/unit", 1, "\"cm\"");
   refuse(sound, "/free_speed_mps", 1.3, "an object");
   refuse(sound, "/free_speed_mps/mean", 0, "0.3 to 2.5");
   refuse(sound, "/free_speed_mps/stddev", -1, "0 to 2");
   refuse(sound, "/free_speed_mps/median", 1, "did you mean \"mean\"?");
-  refuse(sound, "/walkable", json::parse("[[0, 0], [20, 0]]"), "at least 3");
+  refuse(sound, "/walkable", json::parse("[[0, 0], [20, 0]]"), "3 to 1000");
   refuse(sound, "/walkable", json::parse("[[0, 0], [20, 2], [20, 0], [0, 2]]"), "do not cross");
   refuse(sound, "/walkable/1", json::parse("[0, 0]"), "have a length", "/walkable");
   refuse(sound, "/walkable/1/0", 501, "-500 to 500");
   refuse(sound, "/walkable/1/0", "a", "-500 to 500");
-  refuse(sound, "/walkable", json(std::vector<json>(1001, json{0, 0})), "at most 1000");
-  refuse(sound, "/obstacles/0", json::parse("[[4, 0], [5, 0]]"), "at least 3");
+  refuse(sound, "/walkable", json(std::vector<json>(1001, json{0, 0})), "3 to 1000");
+  refuse(sound, "/obstacles/0", json::parse("[[4, 0], [5, 0]]"), "3 to 1000");
   refuse(sound, "/obstacles", "none", "an array");
-  refuse(sound, "/goals", json::array(), "at least 1");
-  refuse(sound, "/goals", json(std::vector<json>(21, sound["goals"][0])), "at most 20");
+  refuse(sound, "/goals", json::array(), "1 to 20");
+  refuse(sound, "/goals", json(std::vector<json>(21, sound["goals"][0])), "1 to 20");
   refuse(sound, "/goals/0/max", json::parse("[17, 1.8]"), "above those of min");
   refuse(sound, "/goals/0/mix", 1, "did you mean");
   refuse(sound, "/goals/0", json::parse(R"({"min": [30, 0], "max": [31, 1]})"), "touches");
@@ -155,8 +155,8 @@ TEST_F(ExperimentsFile, NamesWrongFieldsOfARecording) {
   for (const char* field : {"name", "file", "walkable", "goals", "area", "line"}) {
     json wrong = sound;
     wrong.erase(field);
-    refuse_document({{"experiments", {wrong}}}, "/experiments/0",
-                    std::string("missing required field \"") + field + "\"");
+    refuse_document({{"experiments", {wrong}}}, std::string("/experiments/0/") + field,
+                    "found nothing");
   }
 }
 
@@ -165,7 +165,7 @@ TEST_F(ExperimentsFile, NamesWrongFieldsOfLoops) {
   refuse(loop, "/loop/length_m", 0, "1 to 1000");
   refuse(loop, "/loop/length_m", 12, "2 π times the width");
   refuse(loop, "/loop/width_m", 30, "0.5 to 20");
-  refuse(loop, "/loop/points", json::array(), "at least 1");
+  refuse(loop, "/loop/points", json::array(), "1 to 100");
   refuse(loop, "/loop/points/0", 3, "[density, speed]");
   refuse(loop, "/loop/points/0/0", 11, "0 to 10");
   refuse(loop, "/loop/points/0/0", 0.01, "1 to 10000 people");
@@ -182,8 +182,8 @@ TEST_F(ExperimentsFile, NamesWrongFieldsOfLoops) {
 
 TEST_F(ExperimentsFile, NamesWrongDocuments) {
   refuse_document(json::array(), "", "an object");
-  refuse_document(json::object(), "", "missing required field \"experiments\"");
-  refuse_document({{"experiments", json::array()}}, "/experiments", "at least 1");
+  refuse_document(json::object(), "/experiments", "found nothing");
+  refuse_document({{"experiments", json::array()}}, "/experiments", "1 to 1000");
   refuse_document({{"experiments", {3}}}, "/experiments/0", "an object");
   refuse_document({{"experiments", {loop_json()}}, {"experimnts", 1}}, "/experimnts",
                   "did you mean \"experiments\"?");
@@ -241,7 +241,7 @@ TEST(Folder, IsRefusedWithoutExperiments) {
   expect_folder_refused(folder.path() / "missing", "no folder");
   expect_folder_refused(folder.write("file", ""), "a file");
   folder.write("experiments.json", "{}");
-  expect_folder_refused(folder.path(), "missing required field");
+  expect_folder_refused(folder.path(), "/experiments: found nothing");
 }
 
 TEST(Folder, HasOneExperimentOfEachName) {

@@ -1,18 +1,19 @@
-// The schemas of files.
-#include "base/schemas/schemas.h"
-#include "base/files/resources.h"
+#include "spec/documents/published_schemas.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <string_view>
 
-#include "base/files/files.h"
-
-namespace throng::schemas {
+namespace throng::jobs {
 namespace {
 
 using nlohmann::json;
+
+json parsed(std::string_view name) { return json::parse(published_schema(name)); }
 
 /// Every part of a schema that describes a value, with its place.
 void visit(const json& rules, const std::string& place,
@@ -32,18 +33,15 @@ void visit(const json& rules, const std::string& place,
   }
 }
 
-TEST(Schemas, AreTheFilesOfTheFolder) {
-  for (const Entry& entry : entries()) {
-    const std::string file =
-        source_folder().string() + "/base/schemas/" + std::string(entry.name) + ".schema.json";
-    EXPECT_EQ(read_file(file), entry.text) << entry.name;
-    EXPECT_EQ(schema_for(entry.kind).document()["title"], "throng " + std::string(entry.name));
+TEST(PublishedSchemas, HaveTitles) {
+  for (const std::string_view name : schema_names()) {
+    EXPECT_EQ(parsed(name)["title"], "throng " + std::string(name));
   }
 }
 
-TEST(Schemas, EveryFieldIsDescribed) {
-  for (const Entry& entry : entries()) {
-    const json& schema = schema_for(entry.kind).document();
+TEST(PublishedSchemas, EveryFieldIsDescribed) {
+  for (const std::string_view kind : schema_names()) {
+    const json schema = parsed(kind);
     visit(schema, "", [&](const json& rules, const std::string& place) {
       if (!rules.contains("properties")) return;
       for (const auto& [name, part] : rules["properties"].items()) {
@@ -51,44 +49,33 @@ TEST(Schemas, EveryFieldIsDescribed) {
             part.contains("$ref")
                 ? schema.at(json::json_pointer(part["$ref"].get<std::string>().substr(1)))
                 : part;
-        EXPECT_TRUE(field.contains("description")) << entry.name << ": " << place << "/" << name;
+        EXPECT_TRUE(field.contains("description")) << kind << ": " << place << "/" << name;
       }
     });
   }
 }
 
-TEST(Schemas, ReferencesAndRequiredFieldsExist) {
-  for (const Entry& entry : entries()) {
-    const json& schema = schema_for(entry.kind).document();
+TEST(PublishedSchemas, ReferencesAndRequiredFieldsExist) {
+  for (const std::string_view kind : schema_names()) {
+    const json schema = parsed(kind);
     std::set<std::string> used;
     visit(schema, "", [&](const json& rules, const std::string& place) {
       if (rules.contains("$ref")) {
         used.insert(rules["$ref"]);
         EXPECT_TRUE(schema.contains(json::json_pointer(rules["$ref"].get<std::string>().substr(1))))
-            << entry.name << ": " << place;
+            << kind << ": " << place;
       }
       if (!rules.contains("required") || !rules.contains("properties")) return;
       for (const json& name : rules["required"]) {
-        EXPECT_TRUE(rules["properties"].contains(name)) << entry.name << ": " << place << name;
+        EXPECT_TRUE(rules["properties"].contains(name)) << kind << ": " << place << name;
       }
     });
     const json definitions = schema.value("definitions", json::object());
     for (const auto& [name, part] : definitions.items()) {
-      EXPECT_TRUE(used.contains("#/definitions/" + name))
-          << entry.name << ": nothing uses " << name;
+      EXPECT_TRUE(used.contains("#/definitions/" + name)) << kind << ": nothing uses " << name;
     }
   }
 }
 
-TEST(Schemas, RefuseFaultsThatTheReaderDidNotName) {
-  std::vector<Problem> problems;
-  add_schema_problems(Kind::camera, json::parse(R"({"width": 640, "height": "x", "lens": "pinhole",
-                      "fx": 1, "fy": 1, "cx": 0, "cy": 0})"),
-                      "camera.json", problems);
-  ASSERT_EQ(problems.size(), 1U);
-  EXPECT_EQ(problems[0].where, "/height");
-  EXPECT_EQ(problems[0].source, "camera.json");
-}
-
 }  // namespace
-}  // namespace throng::schemas
+}  // namespace throng::jobs
