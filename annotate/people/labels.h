@@ -33,7 +33,7 @@ struct Keypoint {
   int visibility = 0;
 };
 
-/// A joint in the image (annotate/skeletons.h).
+/// A joint in the image (skinning/landmarks.h).
 struct JointLabel {
   double x = 0;  ///< box coordinates, rounded to kPixelDecimals; 0 outside of the image
   double y = 0;

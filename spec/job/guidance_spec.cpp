@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr std::array kPerceptionWords{"truth", "camera"};
-/// Those of the table of sim/policies/policy.cpp.
+/// Those of the table of sim/policies/policy_table.cpp.
 constexpr std::array kPolicies{"hover",  "waypoints", "orbit",   "survey", "follow_density",
                                "zigzag", "pilot_log", "balance", "signage"};
 

@@ -32,7 +32,7 @@ constexpr std::size_t kMinBorders = 150;
 /// itself.
 constexpr std::size_t kMinObjects = 6;
 constexpr std::size_t kMinBordersOfObject = 40;
-/// Sound images reach 4 to 30, any others stay below 2 (tests/formats/validate_damages.py).
+/// Sound images reach 4 to 30, any others stay below 2 (tests/cli/test_validate_damages.py).
 constexpr double kMinScore = 2.5;
 /// Places along a line, which are left out, still tell in their neighbors.
 constexpr double kMinScoreOfLine = 1.5;
