@@ -24,15 +24,15 @@ namespace fs = std::filesystem;
 namespace {
 
 // Set once, before the process has other threads.
-struct Area {
+struct StagingArea {
   fs::path folder;
   int descriptor = AT_FDCWD;
   std::mutex mutex;
   std::vector<fs::path> published;  ///< guarded by mutex
 };
 
-Area& area() {
-  static Area the_area;
+StagingArea& area() {
+  static StagingArea the_area;
   return the_area;
 }
 

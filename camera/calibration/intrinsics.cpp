@@ -152,7 +152,7 @@ Calibration calibrate_with(Correspondences all, Lens lens, const Rules& rules,
 Calibration calibrate_intrinsics(const Correspondences& all, const IntrinsicsOptions& options) {
   if (options.choose_lens) return calibrate_with_best_lens(all, options);
   return calibrate_with(all, options.lens,
-                        calibration_rules(options.lens, options.wishes, options.source), options);
+                        calibration_rules(options.lens, options.settings, options.source), options);
 }
 
 }  // namespace throng::calibrate

@@ -25,18 +25,18 @@ Correspondences used_in(const Calibration& calibration) {
 }
 
 /// Without settings for parameters that the lens does not have.
-Wishes wishes_for(Lens lens, Wishes wishes) {
+ParameterSettings settings_for(Lens lens, ParameterSettings settings) {
   const auto has = [&](const std::string& name) {
     for (std::size_t i = 0; i < kParameters; ++i) {
       if (parameter_name(lens, i) == name) return true;
     }
     return false;
   };
-  std::erase_if(wishes.fixed, [&](const auto& entry) { return !has(entry.first); });
-  std::erase_if(wishes.priors, [&](const auto& entry) { return !has(entry.first); });
-  std::erase_if(wishes.tied,
+  std::erase_if(settings.fixed, [&](const auto& entry) { return !has(entry.first); });
+  std::erase_if(settings.priors, [&](const auto& entry) { return !has(entry.first); });
+  std::erase_if(settings.tied,
                 [&](const auto& entry) { return !has(entry.first) || !has(entry.second.to); });
-  return wishes;
+  return settings;
 }
 
 ModelScore score_model(const Calibration& calibration) {
@@ -82,7 +82,7 @@ Calibration calibrate_with_best_lens(const Correspondences& all, const Intrinsic
   with.choose_lens = false;
   const auto calibrate = [&](const Correspondences& views, Lens lens) {
     with.lens = lens;
-    with.wishes = wishes_for(lens, options.wishes);
+    with.settings = settings_for(lens, options.settings);
     return calibrate_intrinsics(views, with);
   };
   const Correspondences used = used_in(calibrate(all, Lens::brown5));

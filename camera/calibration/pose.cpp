@@ -238,11 +238,11 @@ Calibration adjust_bundle(const CameraFile& start, const ControlPoints& control_
   Adjustment adjustment = bundle.adjustment();
   adjustment.rules = options.fix_lens
                          ? fixed_lens()
-                         : calibration_rules(start.lens, options.wishes, options.source);
+                         : calibration_rules(start.lens, options.settings, options.source);
   for (std::size_t i = 0; i < kParameters && !options.fix_lens; ++i) {
-    const auto wish = options.wishes.fixed.find(parameter_name(start.lens, i));
-    if (wish != options.wishes.fixed.end() && wish->second)
-      adjustment.parameters[i] = *wish->second;
+    const auto fixed = options.settings.fixed.find(parameter_name(start.lens, i));
+    if (fixed != options.settings.fixed.end() && fixed->second)
+      adjustment.parameters[i] = *fixed->second;
   }
   apply_ties(adjustment.rules, adjustment.parameters);
   return finish("bundle", start, bundle, adjustment, options.fit, left_out);

@@ -27,8 +27,8 @@ Calibration calibrate_pose(const CameraFile& camera, const ControlPoints& contro
 /// Options of adjust_bundle().
 struct BundleOptions {
   FitOptions fit;
-  Wishes wishes;          ///< parameters fixed without a value keep their initial value
-  bool fix_lens = false;  ///< do not estimate the lens; `wishes` are ignored
+  ParameterSettings settings;  ///< parameters fixed without a value keep their initial value
+  bool fix_lens = false;       ///< do not estimate the lens; `settings` are ignored
   std::string source = "calibration";
 };
 

@@ -127,7 +127,7 @@ Calibration carry_out(const Request& request, const OnProgress& on_progress,
     return calibrate_pose(camera, control, pixels, {options.fit, options.source});
   }
   return adjust_bundle(camera, control, pixels,
-                       {options.fit, options.wishes, request.fix_lens, options.source});
+                       {options.fit, options.settings, request.fix_lens, options.source});
 }
 
 void carry_out_in(const fs::path& folder, const OnProgress& on_progress,

@@ -59,24 +59,25 @@ std::pair<std::string, std::string> split(const std::string& text, char sign) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-calibrate::Wishes read_wishes(const CalibrateArguments& arguments) {
-  calibrate::Wishes wishes = arguments.request.options.wishes;
+calibrate::ParameterSettings read_wishes(const CalibrateArguments& arguments) {
+  calibrate::ParameterSettings settings = arguments.request.options.settings;
   for (const std::string& text : arguments.fixed) {
     const auto [name, value] = split(text, '=');
-    wishes.fixed[name] =
+    settings.fixed[name] =
         value.empty() ? std::nullopt : std::optional(parse_number(value, "--fix", text));
   }
   for (const std::string& text : arguments.tied) {
     const auto [name, rest] = split(text, '=');
     const auto [to, ratio] = split(rest, '*');
-    wishes.tied[name] = {to, ratio.empty() ? 1 : parse_number(ratio, "--tie", text)};
+    settings.tied[name] = {to, ratio.empty() ? 1 : parse_number(ratio, "--tie", text)};
   }
   for (const std::string& text : arguments.priors) {
     const auto [name, rest] = split(text, '=');
     const auto [mean, sd] = split(rest, ':');
-    wishes.priors[name] = {parse_number(mean, "--prior", text), parse_number(sd, "--prior", text)};
+    settings.priors[name] = {parse_number(mean, "--prior", text),
+                             parse_number(sd, "--prior", text)};
   }
-  return wishes;
+  return settings;
 }
 
 void write_results(const calibrate::Calibration& calibration, const CalibrateArguments& arguments) {
@@ -127,7 +128,7 @@ void run(CalibrateArguments& arguments, const std::string& kind) {
   if (!request.options.choose_lens) {
     request.options.lens = calibrate::lens_named(arguments.lens, "--lens");
   }
-  request.options.wishes = read_wishes(arguments);
+  request.options.settings = read_wishes(arguments);
   request.options.fit.reject = !arguments.keep_outliers;
   if (arguments.sigma_px > 0) request.options.fit.sigma_px = arguments.sigma_px;
   check_outputs(arguments);
@@ -171,7 +172,7 @@ void add_fit(CLI::App& command, CalibrateArguments& arguments) {
 }
 
 void add_lens(CLI::App& command, CalibrateArguments& arguments) {
-  command.add_flag("--skew", arguments.request.options.wishes.skew, "Estimate the skew, too");
+  command.add_flag("--skew", arguments.request.options.settings.skew, "Estimate the skew, too");
   command.add_option("--fix", arguments.fixed,
                      "NAME or NAME=VALUE: keep a parameter (k3, cx=320); repeatable");
   command.add_option("--tie", arguments.tied,

@@ -188,7 +188,7 @@ void selftest(const SelftestArguments& arguments) {
   const Photographs photographs = photograph(arguments, truth, board);
   calibrate::IntrinsicsOptions options;
   options.lens = truth.lens;
-  options.wishes.skew = truth.parameters[calibrate::kSkew] != 0;
+  options.settings.skew = truth.parameters[calibrate::kSkew] != 0;
   options.source = "throng calibrate selftest";
   const calibrate::Calibration found = calibrate::calibrate_intrinsics(photographs.all, options);
   const json checks = comparison(truth, found, photographs.truth);

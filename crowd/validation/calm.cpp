@@ -16,7 +16,7 @@ namespace {
 constexpr double kFromS = 20;
 constexpr double kUntilS = 60;
 
-Scene watched_scene(WatchedScene scene) {
+TestScene watched_scene(WatchedScene scene) {
   switch (scene) {
     case WatchedScene::queue:
       return room_with_door({0.8, 0.2, 150});

@@ -66,7 +66,7 @@ crowd::Node exit_goal(int id, double x, double y) {
 }
 
 Corridor walk_corridor(const Tested& tested, double speed_mps) {
-  Scene scene;
+  TestScene scene;
   scene.walls = {box(-3, -2, 46, -1), box(-3, 1, 46, 2)};
   Group group;
   group.places = {Vector2d(0, 0)};
@@ -85,7 +85,7 @@ Corridor walk_corridor(const Tested& tested, double speed_mps) {
 }
 
 std::vector<double> walk_alone(const Tested& tested, const Sampled& speed, std::size_t people) {
-  Scene scene;
+  TestScene scene;
   Group group;
   for (std::size_t i = 0; i < people; ++i)
     group.places.emplace_back(0, 20.0 * static_cast<double>(i));
@@ -127,7 +127,7 @@ std::vector<int> exits_used(crowd::Simulation& crowd, const std::vector<Vector2d
 }
 
 Verdict round_corner(const Tested& tested, double max_s) {
-  Scene scene;
+  TestScene scene;
   scene.walls = {box(-11, -1, 3, 0), box(-11, 2, 0, 13), box(2, 0, 3, 13)};
   Group group;
   group.places = lattice({-10, 0.25}, {-4, 1.75}, 20);
@@ -148,7 +148,7 @@ Verdict assigned_exits(const Tested& tested, Effort) {
   // Six rooms of 5 m x 5 m on both sides of a corridor from (0, 0) to (30, 2), open at both ends.
   constexpr int kRooms = 6;
   constexpr double kRoom = 5;
-  Scene scene;
+  TestScene scene;
   Group main;
   main.state = "Main";
   Group other = main;

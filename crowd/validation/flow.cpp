@@ -47,12 +47,12 @@ double weidmann_speed_mps(double density) {
   return std::max(0.0, kFree * (1 - std::exp(-1.913 * (1 / density - 1 / kJam))));
 }
 
-Scene ring(const Ring& spec) {
+TestScene ring(const Ring& spec) {
   const double inner = spec.radius_m - spec.width_m / 2;
   const double outer = spec.radius_m + spec.width_m / 2;
   const double half = spec.width_m / 2 - std::min(0.25, spec.width_m / 4);
   const double length = 2 * M_PI * spec.radius_m;
-  Scene scene;
+  TestScene scene;
   Group group;
   for (const Vector2d& place : lattice({0, -half}, {length, half}, spec.people)) {
     const double angle = place.x() / spec.radius_m;
@@ -94,10 +94,10 @@ DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t se
   return {density, mean_ring_speed(crowd, 20, 50)};
 }
 
-Scene room_with_door(const Bottleneck& door) {
+TestScene room_with_door(const Bottleneck& door) {
   constexpr double kWall = 1;  // m
   const double half = door.width_m / 2;
-  Scene scene;
+  TestScene scene;
   scene.walls = {box(-10 - kWall, -5 - kWall, 0, -5), box(-10 - kWall, 5, 0, 5 + kWall),
                  box(-10 - kWall, -5, -10, 5), box(0, -5 - kWall, door.wall_m, -half),
                  box(0, half, door.wall_m, 5 + kWall)};

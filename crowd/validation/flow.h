@@ -21,7 +21,7 @@ struct Ring {
   Sampled speed = Group{}.speed;
 };
 /// Returns the scene of people who walk around in a ring.
-Scene ring(const Ring& spec);
+TestScene ring(const Ring& spec);
 /// Mean speed along a ring around the origin between two times (m/s).
 double mean_ring_speed(crowd::Simulation& crowd, double from_s, double until_s);
 
@@ -39,7 +39,7 @@ struct Bottleneck {
   std::size_t people = 150;
 };
 
-Scene room_with_door(const Bottleneck& door);
+TestScene room_with_door(const Bottleneck& door);
 
 /// Flow (1/s) between the 10th and the 80th percentile of the passages of `people`; `times_s` are
 /// the sorted times of passage. Returns 0 if fewer people pass.

@@ -54,7 +54,7 @@ Verdict counter_flow(const Tested& tested, Effort effort) {
 }
 
 Verdict closing_exit(const Tested& tested, Effort) {
-  Scene scene;
+  TestScene scene;
   scene.walls = room(20, 10, {{Side::left, 5, 1}, {Side::right, 5, 1}});
   scene.later_walls = {box(-0.2, 4.4, 0, 5.6)};
   Group group;
@@ -88,7 +88,7 @@ Verdict closing_exit(const Tested& tested, Effort) {
 }
 
 Verdict congestion(const Tested& tested, Effort effort) {
-  Scene scene;
+  TestScene scene;
   scene.walls = room(8, 5, {{Side::right, 2.5, 2}});
   scene.walls.push_back(box(8.2, 0.5, 20, 1.5));
   scene.walls.push_back(box(8.2, 3.5, 20, 4.5));

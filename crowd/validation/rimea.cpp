@@ -37,7 +37,7 @@ Verdict speed_over_density(const Tested& tested, Effort effort) {
 }
 
 Verdict pre_movement(const Tested& tested, Effort) {
-  Scene scene;
+  TestScene scene;
   scene.walls = room(8, 5, {{Side::right, 2.5, 1}});
   scene.behavior.goal_box(0, 10, 1.5, 12, 3.5);
   constexpr int kPeople = 10;
@@ -86,7 +86,7 @@ std::optional<double> empty_hall(const Tested& tested, std::size_t people, bool 
     goals.push_back(exit_goal(2, 33, 5));
     goals.push_back(exit_goal(3, 33, 15));
   }
-  Scene scene;
+  TestScene scene;
   scene.walls = room(30, 20, doors);
   Group group;
   group.places = lattice({0.5, 0.5}, {29.5, 19.5}, people);
@@ -106,7 +106,7 @@ Verdict half_the_exits(const Tested& tested, Effort effort) {
 }
 
 Verdict exit_choice(const Tested& tested, Effort effort) {
-  Scene scene;
+  TestScene scene;
   scene.walls = room(30, 20, {{Side::bottom, 5, 1}, {Side::bottom, 20, 1}});
   Group group;
   group.places = lattice({0.5, 0.5}, {12.5, 19.5}, effort == Effort::full ? 600 : 150);
@@ -127,7 +127,7 @@ Verdict exit_choice(const Tested& tested, Effort effort) {
 std::optional<double> walk_path(const Tested& tested, std::size_t people, double straight_m,
                                 std::uint64_t seed) {
   constexpr double kWidth = 4;
-  Scene scene;
+  TestScene scene;
   Group group;
   group.places = lattice({-50, 0.3}, {-0.5, kWidth - 0.3}, people);
   group.aside_m = 0.05;

@@ -31,7 +31,7 @@ struct Outcome {
   std::size_t last_queue = 0;   ///< in the second room
 };
 
-void add_room_walls(double right_x, const Series& series, Scene& scene) {
+void add_room_walls(double right_x, const Series& series, TestScene& scene) {
   const double half = series.width_m / 2;
   const double end = right_x + series.length_m;
   scene.walls.push_back(box(right_x, -6, end, -half));
@@ -41,7 +41,7 @@ void add_room_walls(double right_x, const Series& series, Scene& scene) {
 }
 
 Outcome walk(const Tested& tested, const Series& series, std::uint64_t seed) {
-  Scene scene;
+  TestScene scene;
   scene.walls = {box(-11, -6, -10, 6)};
   add_room_walls(0, series, scene);
   double last_x = 0;

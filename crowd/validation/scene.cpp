@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-crowd::SceneDescription describe_scene(const Scene& scene, const Tested& tested) {
+crowd::SceneDescription describe_scene(const TestScene& scene, const Tested& tested) {
   crowd::SceneBuilder builder(scene.dt_s);
   for (const crowd::Node& constants : tested.constants) builder.add(constants);
   const auto name = [](std::size_t group) { return fmt::format("p{}", group); };
@@ -86,7 +86,7 @@ Behavior& Behavior::leave_at_goal(const std::string& states) {
   return *this;
 }
 
-crowd::Simulation load(const Scene& scene, const Tested& tested, std::uint64_t seed) {
+crowd::Simulation load(const TestScene& scene, const Tested& tested, std::uint64_t seed) {
   crowd::LoadOptions options;
   options.seed = seed;
   options.model = tested.model;

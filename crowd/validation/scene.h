@@ -46,7 +46,7 @@ class Behavior : public crowd::BehaviorBuilder {
 };
 
 /// Walls, people and behavior of a test.
-struct Scene {
+struct TestScene {
   std::vector<Polygon> walls;
   std::vector<Polygon> later_walls;  ///< walls that appear when an action adds obstacle class 2
   std::vector<Group> groups;
@@ -67,6 +67,6 @@ std::vector<Eigen::Vector2d> lattice(const Eigen::Vector2d& low, const Eigen::Ve
                                      std::size_t count);
 
 /// Creates the simulation of a scene. Force-based models compute five sub-steps per step.
-crowd::Simulation load(const Scene& scene, const Tested& tested, std::uint64_t seed);
+crowd::Simulation load(const TestScene& scene, const Tested& tested, std::uint64_t seed);
 
 }  // namespace throng::validation

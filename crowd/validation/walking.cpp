@@ -42,7 +42,7 @@ class Leavers {
 }  // namespace
 
 ExitRun leave_room(const Tested& tested, std::uint64_t seed) {
-  Scene scene;
+  TestScene scene;
   scene.walls = {box(-9, -3.5, 0, -2.5), box(-9, 2.5, 0, 3.5), box(-9, -2.5, -8, 2.5),
                  box(0, -3.5, 0.2, -0.5), box(0, 0.5, 0.2, 3.5)};
   Group group;
@@ -68,8 +68,8 @@ ExitRun leave_room(const Tested& tested, std::uint64_t seed) {
   return {out == 100, out > 0 ? static_cast<double>(out) / last_s : 0, overlap};
 }
 
-Scene square_scene(double density) {
-  Scene scene;
+TestScene square_scene(double density) {
+  TestScene scene;
   scene.walls = {box(-16, -16, 16, -15), box(-16, 15, 16, 16), box(-16, -15, -15, 15),
                  box(15, -15, 16, 15)};
   Group group;
@@ -115,8 +115,8 @@ SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed)
           speed / static_cast<double>(samples), std::sqrt(accel_sq / static_cast<double>(samples))};
 }
 
-Scene two_rooms(std::size_t others) {
-  Scene scene;
+TestScene two_rooms(std::size_t others) {
+  TestScene scene;
   scene.walls = {box(-11, -6, -10, 6), box(20, -6, 21, 6), box(-10, -6, 20, -5),
                  box(-10, 5, 20, 6),   box(0, -5, 10, -1), box(0, 1, 10, 5)};
   Group there;
@@ -144,7 +144,7 @@ CounterRun pass_corridor(const Tested& tested, std::size_t others, std::uint64_t
 }
 
 TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) {
-  Scene scene;
+  TestScene scene;
   scene.walls = {box(-30, -3, 30, -2), box(-30, 2, 30, 3)};
   const auto people = static_cast<std::size_t>(each * 4 * 180);
   for (const bool there : {true, false}) {
@@ -179,7 +179,7 @@ double corridor_flow(const Tested& tested, const Passage& passage, std::uint64_t
   constexpr double kTurn = 10;   // m from the origin
   constexpr double kThin = 0.2;  // m
   const double width = passage.width_m;
-  Scene scene;
+  TestScene scene;
   Group group;
   const double first = passage.queued ? kTurn - 0.5 : -0.5;
   const double per_m2 = passage.queued ? 3 : 2;
@@ -217,7 +217,7 @@ double corridor_flow(const Tested& tested, const Passage& passage, std::uint64_t
 }
 
 MeetingRun meet(const Tested& tested, double aside, std::uint64_t seed) {
-  Scene scene;
+  TestScene scene;
   Group group;
   group.places = {{-12, 0}};
   group.aside_m = 0;

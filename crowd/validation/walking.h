@@ -25,14 +25,14 @@ struct SquareRun {
 };
 /// Returns the scene of an open square of 30 m x 30 m in which people (1/m^2) walk to random
 /// points, one after the other.
-Scene square_scene(double density);
+TestScene square_scene(double density);
 /// Simulates an open square of 30 m x 30 m in which people walk to random points, one after the
 /// other.
 SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed);
 
 /// Returns the scene of two rooms with a corridor of 10 m x 2 m between them: 100 people in state
 /// "There" walk through it, and `others` in state "Back" walk against them (NIST 2.8).
-Scene two_rooms(std::size_t others);
+TestScene two_rooms(std::size_t others);
 
 struct CounterRun {
   double time_s = 0;     ///< until the last person is across, at most 600 s

@@ -65,7 +65,7 @@ class OnboardCamera {
                 const ImageSize& size);
 
   world::Scenario scenario_;
-  PeopleInMotion people_;
+  PosedPeople people_;
   render::Renderer renderer_;
   std::vector<camera::CameraSpec> cameras_;  ///< per drone
   std::vector<render::AirframeShape> shapes_;

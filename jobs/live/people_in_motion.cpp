@@ -38,17 +38,16 @@ std::vector<double> statures_m(const world::TraceHeader& header,
   return statures;
 }
 
-PeopleInMotion::PeopleInMotion(const world::TraceHeader& header, std::uint64_t seed,
-                               const skinning::Population& population,
-                               const skinning::Styling& styling)
+PosedPeople::PosedPeople(const world::TraceHeader& header, std::uint64_t seed,
+                         const skinning::Population& population, const skinning::Styling& styling)
     : population_(population),
       clips_(population),
       roles_(header.role),
       looks_(sample_looks(header, seed, population, styling)),
       fell_at_s_(header.agent_count(), -1) {}
 
-skinning::PoseBlend PeopleInMotion::pose_of(std::size_t agent, double meters, double speed_mps,
-                                            std::uint8_t flags, double time_s) {
+skinning::PoseBlend PosedPeople::pose_of(std::size_t agent, double meters, double speed_mps,
+                                         std::uint8_t flags, double time_s) {
   const skinning::Appearance& look = looks_[agent];
   const skinning::Character& character = population_.characters[look.character];
   if ((flags & world::kFallen) == 0) {
@@ -72,7 +71,7 @@ skinning::PoseBlend PeopleInMotion::pose_of(std::size_t agent, double meters, do
   return skinning::blend_frame(clip, (look.phase_offset + meters / clip_stride_m) * clip.frames);
 }
 
-render::Scene PeopleInMotion::scene_at(const Moment& moment, double time_s) {
+render::Scene PosedPeople::scene_at(const Moment& moment, double time_s) {
   render::Scene scene;
   scene.time_s = time_s;
   const world::CrowdStep& a = *moment.before;

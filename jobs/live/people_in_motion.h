@@ -22,11 +22,11 @@ std::vector<double> statures_m(const world::TraceHeader& header,
                                const skinning::Styling& styling);
 
 /// Computes the poses of a run's people; call it with moments in the order of time.
-class PeopleInMotion {
+class PosedPeople {
  public:
   /// Assigns characters to the people of a run. The population must outlive this object.
-  PeopleInMotion(const world::TraceHeader& header, std::uint64_t seed,
-                 const skinning::Population& population, const skinning::Styling& styling);
+  PosedPeople(const world::TraceHeader& header, std::uint64_t seed,
+              const skinning::Population& population, const skinning::Styling& styling);
 
   /// The scene with people and hazards at a time within the moment's step.
   render::Scene scene_at(const Moment& moment, double time_s);

@@ -85,7 +85,7 @@ class Session {
     const std::jthread reader([this](const std::stop_token& stop) { read(stop); });
     send(MessageType::hello, make_hello(flight_, scenario_, smoke_amount(job_)).dump());
     FlightParts parts;
-    parts.step = [this](const Wishes& wishes) { return step(wishes); };
+    parts.step = [this](const PilotInput& input) { return step(input); };
     parts.rest = [this] {
       send(MessageType::state, state_bytes(*control_.shown().moment, 0, true));
     };
@@ -126,12 +126,12 @@ class Session {
     if (message.value("stop", false)) control_.end();
   }
 
-  std::shared_ptr<const Moment> step(const Wishes& wishes) {
+  std::shared_ptr<const Moment> step(const PilotInput& input) {
     const double reached_factor = control_.reached_factor();
-    std::shared_ptr<const Moment> moment = flight_.step(wishes.commands, wishes.sequence);
+    std::shared_ptr<const Moment> moment = flight_.step(input.commands, input.sequence);
     const std::vector<json> events = flight_.take_events();
     for (const json& event : events) send(MessageType::event, event.dump());
-    if (FlightTopics* const recorded = topics()) recorded->add(*moment, wishes.commands, events);
+    if (FlightTopics* const recorded = topics()) recorded->add(*moment, input.commands, events);
     send(MessageType::state, state_bytes(*moment, reached_factor, false));
     return moment;
   }
@@ -146,7 +146,7 @@ class Session {
       };
     };
     images.is_wanted = [this](std::size_t drone) {
-      return control_.is_watched() && control_.wishes().view == drone;
+      return control_.is_watched() && control_.input().view == drone;
     };
     images.take = [this](const FlightImage& image) {
       const Moment& moment = *image.moment;

@@ -28,7 +28,7 @@ class Speedometer {
  public:
   explicit Speedometer(std::int64_t done) : done_before_(done) {}
 
-  Pace pace(std::int64_t done, std::int64_t total) const {
+  RenderRate pace(std::int64_t done, std::int64_t total) const {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - since_).count();
     if (done <= done_before_ || elapsed_s <= 0) return {};
     const double rate = static_cast<double>(done - done_before_) / elapsed_s;

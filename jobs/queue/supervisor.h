@@ -22,7 +22,7 @@ enum class Stage { waiting, simulating, rendering, rendered, publishing, finishe
 std::string_view to_string(Stage stage);
 
 /// Rate of rendering and the time left at that rate.
-struct Pace {
+struct RenderRate {
   double images_per_s = 0;            ///< 0 before the first image
   std::optional<double> remaining_s;  ///< none before the first image
 };
@@ -35,7 +35,7 @@ struct RunProgress {
   double duration_s = 0;         ///< simulated time at the end: CaptureSpec::end_s()
   std::int64_t images_done = 0;  ///< over all cameras
   std::int64_t images_total = 0;
-  Pace pace;
+  RenderRate pace;
 };
 
 /// A shard that a worker renders now.
@@ -43,7 +43,7 @@ struct ShardProgress {
   Task task;
   std::int64_t images_done = 0;
   std::int64_t images_total = 0;
-  Pace pace;
+  RenderRate pace;
   std::string node = {};  ///< the worker's cluster node; "" on this machine
 };
 
@@ -60,7 +60,7 @@ struct JobProgress {
   std::vector<RunProgress> runs;
   std::vector<ShardProgress> shards;  ///< shards with reported progress, not yet finished
   std::vector<NodeWork> nodes = {};   ///< cluster nodes sorted by name; empty without a cluster
-  Pace pace;                          ///< over all runs that have not failed
+  RenderRate pace;                    ///< over all runs that have not failed
   std::optional<DeliveryProgress> delivery = {};  ///< from the start of the upload on, if any
 };
 

@@ -43,7 +43,7 @@ jobs::Stage current_stage(const jobs::JobProgress& progress) {
   return earliest;
 }
 
-json with_pace(json value, const jobs::Pace& pace) {
+json with_pace(json value, const jobs::RenderRate& pace) {
   value["frames_per_s"] = pace.images_per_s;
   value["remaining_s"] = pace.remaining_s ? json(*pace.remaining_s) : json(nullptr);
   return value;

@@ -13,7 +13,7 @@ namespace throng::sim {
 
 namespace {
 
-struct Field {
+struct GuidanceField {
   GuidanceFields bit;
   std::string_view name;      // in the job
   std::string_view expected;  // of a policy that needs it
@@ -21,28 +21,28 @@ struct Field {
 };
 
 constexpr std::array kFields{
-    Field{kFieldWaypoints, "waypoints", "at least one point",
-          [](const DroneMission& m) { return !m.waypoints.empty(); }},
-    Field{kFieldCenter, "center", "a point [x, y]",
-          [](const DroneMission& m) { return m.guidance.center.has_value(); }},
-    Field{kFieldRadius, "radius_m", "a radius",
-          [](const DroneMission& m) { return m.guidance.radius_m.has_value(); }},
-    Field{kFieldArea, "area", "an area",
-          [](const DroneMission& m) { return m.guidance.area.has_value(); }},
-    Field{kFieldOverlap, "overlap", "a share",
-          [](const DroneMission& m) { return m.guidance.overlap.has_value(); }},
-    Field{kFieldExits, "exits", "ids of exits",
-          [](const DroneMission& m) { return !m.guidance.exits.empty(); }},
-    Field{kFieldSetpoints, "setpoints", "at least one set-point",
-          [](const DroneMission& m) { return !m.guidance.setpoints.empty(); }},
-    Field{kFieldLeadSpeed, "lead_speed_mps", "a speed",
-          [](const DroneMission& m) { return m.guidance.lead_speed_mps.has_value(); }},
-    Field{kFieldBatch, "batch", "a number of people",
-          [](const DroneMission& m) { return m.guidance.batch.has_value(); }},
-    Field{kFieldPerception, "perception", "its observations",
-          [](const DroneMission& m) { return m.guidance.perception.has_value(); }},
-    Field{kFieldBeacon, "beacon", "true or false",
-          [](const DroneMission& m) { return m.guidance.beacon.has_value(); }},
+    GuidanceField{kFieldWaypoints, "waypoints", "at least one point",
+                  [](const DroneMission& m) { return !m.waypoints.empty(); }},
+    GuidanceField{kFieldCenter, "center", "a point [x, y]",
+                  [](const DroneMission& m) { return m.guidance.center.has_value(); }},
+    GuidanceField{kFieldRadius, "radius_m", "a radius",
+                  [](const DroneMission& m) { return m.guidance.radius_m.has_value(); }},
+    GuidanceField{kFieldArea, "area", "an area",
+                  [](const DroneMission& m) { return m.guidance.area.has_value(); }},
+    GuidanceField{kFieldOverlap, "overlap", "a share",
+                  [](const DroneMission& m) { return m.guidance.overlap.has_value(); }},
+    GuidanceField{kFieldExits, "exits", "ids of exits",
+                  [](const DroneMission& m) { return !m.guidance.exits.empty(); }},
+    GuidanceField{kFieldSetpoints, "setpoints", "at least one set-point",
+                  [](const DroneMission& m) { return !m.guidance.setpoints.empty(); }},
+    GuidanceField{kFieldLeadSpeed, "lead_speed_mps", "a speed",
+                  [](const DroneMission& m) { return m.guidance.lead_speed_mps.has_value(); }},
+    GuidanceField{kFieldBatch, "batch", "a number of people",
+                  [](const DroneMission& m) { return m.guidance.batch.has_value(); }},
+    GuidanceField{kFieldPerception, "perception", "its observations",
+                  [](const DroneMission& m) { return m.guidance.perception.has_value(); }},
+    GuidanceField{kFieldBeacon, "beacon", "true or false",
+                  [](const DroneMission& m) { return m.guidance.beacon.has_value(); }},
 };
 
 void check_exits(const DroneMission& mission, const world::Scenario& scenario,
@@ -87,7 +87,7 @@ void check_setpoints(const DroneMission& mission, const std::string& pointer,
 void check_guidance(const PolicyEntry& policy, const DroneMission& mission,
                     const world::Scenario& scenario, const std::string& pointer,
                     std::vector<Problem>& problems) {
-  for (const Field& field : kFields) {
+  for (const GuidanceField& field : kFields) {
     const std::string where = fmt::format("{}/{}", pointer, field.name);
     if ((policy.needs & field.bit) != 0 && !field.given(mission)) {
       problems.push_back({"", where, "none",

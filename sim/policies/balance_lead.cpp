@@ -22,26 +22,26 @@ void BalanceLead::see(const WorldView& view, const Eigen::Vector2d& place) {
   }
 }
 
-void BalanceLead::begin(const LeadRoute& route, Glide& glide) {
+void BalanceLead::begin(const LeadRoute& route, SmoothSetpoint& setpoint) {
   path_.assign(route.points.begin(), route.points.end());
   rescues_ = 0;
-  start_leg(0, glide);
+  start_leg(0, setpoint);
 }
 
-void BalanceLead::start_leg(std::size_t point, Glide& glide) {
+void BalanceLead::start_leg(std::size_t point, SmoothSetpoint& setpoint) {
   point_ = point;
   arrived_s_ = -1;
-  glide.go(path_[point_], speed_mps_);
+  setpoint.go(path_[point_], speed_mps_);
 }
 
-bool BalanceLead::advance(double time_s, const LeadRoute& route, Glide& glide) {
+bool BalanceLead::advance(double time_s, const LeadRoute& route, SmoothSetpoint& setpoint) {
   const bool is_fetching = rescues_ > 0 && point_ == 0;
-  glide.go(path_[point_], is_fetching ? kBalance.fly_speed_mps : speed_mps_);
-  if (!glide.arrived()) return false;
+  setpoint.go(path_[point_], is_fetching ? kBalance.fly_speed_mps : speed_mps_);
+  if (!setpoint.arrived()) return false;
   if (arrived_s_ < 0) arrived_s_ = time_s;
   const double waited_s = time_s - arrived_s_;
   if (point_ + 1 < path_.size()) {
-    if (!is_fetching || waited_s >= kBalance.min_collect_s) start_leg(point_ + 1, glide);
+    if (!is_fetching || waited_s >= kBalance.min_collect_s) start_leg(point_ + 1, setpoint);
     return false;
   }
   // Beyond the door: those who are here run on, those who got lost must be fetched.
@@ -52,7 +52,7 @@ bool BalanceLead::advance(double time_s, const LeadRoute& route, Glide& glide) {
   ++rescues_;
   path_ = {followers_.lost};
   path_.insert(path_.end(), route.points.begin(), route.points.end());
-  start_leg(0, glide);
+  start_leg(0, setpoint);
   return false;
 }
 

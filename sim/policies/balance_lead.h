@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/policies/glide.h"
 #include "sim/policies/lead_route.h"
+#include "sim/policies/smooth_setpoint.h"
 #include "sim/sensors/world_view.h"
 
 namespace throng::sim {
@@ -27,13 +27,13 @@ class BalanceLead {
   const Followers& followers() const { return followers_; }
 
   /// Begins a lead along a route.
-  void begin(const LeadRoute& route, Glide& glide);
+  void begin(const LeadRoute& route, SmoothSetpoint& setpoint);
 
   /// Continues the lead at a time. Returns whether it is over.
-  bool advance(double time_s, const LeadRoute& route, Glide& glide);
+  bool advance(double time_s, const LeadRoute& route, SmoothSetpoint& setpoint);
 
  private:
-  void start_leg(std::size_t point, Glide& glide);
+  void start_leg(std::size_t point, SmoothSetpoint& setpoint);
 
   int drone_;
   double speed_mps_;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/geometry/angle.h"
-#include "sim/policies/glide.h"
+#include "sim/policies/smooth_setpoint.h"
 
 namespace throng::sim {
 
@@ -20,7 +20,7 @@ constexpr double kStaysFactor = 1.15;  // how much denser another place must be
 class FollowDensityPolicy : public Policy {
  public:
   explicit FollowDensityPolicy(const PolicyContext& context)
-      : speed_mps_(context.mission.speed_mps), glide_(context.start, context.yaw_rad) {
+      : speed_mps_(context.mission.speed_mps), setpoint_(context.start, context.yaw_rad) {
     const double heading_rad = context.yaw_rad + context.mission.camera.yaw_deg * kDegree;
     const double below =
         std::max(kSteepEnough, std::tan(-context.mission.camera.pitch_deg * kDegree));
@@ -40,11 +40,11 @@ class FollowDensityPolicy : public Policy {
       densest = person.position;
     }
     target_ = mean_near(view, densest);
-    glide_.go(target_ - ahead_, speed_mps_);
+    setpoint_.go(target_ - ahead_, speed_mps_);
   }
 
   Setpoint next(const FlightState& state, double dt_s) override {
-    return glide_.advance(state, dt_s);
+    return setpoint_.advance(state, dt_s);
   }
 
  private:
@@ -67,7 +67,7 @@ class FollowDensityPolicy : public Policy {
   }
 
   double speed_mps_;
-  Glide glide_;
+  SmoothSetpoint setpoint_;
   Vector2d ahead_;  // from below the drone to where the camera looks
   Vector2d target_;
   double look_s_ = 0;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/geometry/angle.h"
-#include "sim/policies/glide.h"
+#include "sim/policies/smooth_setpoint.h"
 
 namespace throng::sim {
 
@@ -53,7 +53,7 @@ class OrbitPolicy : public Policy {
   double radius_m_;
   double speed_mps_;
   double camera_yaw_rad_;
-  Glide approach_;
+  SmoothSetpoint approach_;
   double height_m_;
   double angle_rad_ = 0;
   double pace_mps_ = 0;  // along the circle

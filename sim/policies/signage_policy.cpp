@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "sim/policies/glide.h"
 #include "sim/policies/lead_route.h"
 #include "sim/policies/queue_model.h"
+#include "sim/policies/smooth_setpoint.h"
 
 namespace throng::sim {
 
@@ -28,7 +28,7 @@ class SignagePolicy : public Policy {
       : scenario_(*context.scenario),
         drone_(context.drone),
         choice_(exits_to_lead_to(scenario_, context.mission.guidance.exits)),
-        glide_(context.start, context.yaw_rad),
+        setpoint_(context.start, context.yaw_rad),
         queues_(scenario_) {}
 
   void see(const WorldView& view) override {
@@ -39,17 +39,17 @@ class SignagePolicy : public Policy {
     if (to_ >= 0 && !queues_.is_open(to_)) {
       to_ = -1;
       choose_s_ = view.time_s;
-      glide_.stop();
+      setpoint_.stop();
     }
     if (alarmed && view.time_s >= choose_s_) choose(view);
   }
 
   Setpoint next(const FlightState& state, double dt_s) override {
-    return glide_.advance(state, dt_s);
+    return setpoint_.advance(state, dt_s);
   }
 
   bool beacon() const override {
-    if (to_ < 0 || !glide_.arrived()) return false;
+    if (to_ < 0 || !setpoint_.arrived()) return false;
     return std::fmod(time_s_, kShowS + kHideS) < kShowS;
   }
 
@@ -82,7 +82,7 @@ class SignagePolicy : public Policy {
     const Vector2d offset = max_queue() - inner;
     const Vector2d aside =
         offset.norm() > 0 ? Vector2d(offset.normalized()) : Vector2d(-exit.outward);
-    glide_.go(inner + std::min(kBeforeDoorM, offset.norm()) * aside, kSignSpeedMps);
+    setpoint_.go(inner + std::min(kBeforeDoorM, offset.norm()) * aside, kSignSpeedMps);
   }
 
   Vector2d max_queue() const {
@@ -98,7 +98,7 @@ class SignagePolicy : public Policy {
   const world::Scenario& scenario_;
   int drone_;
   std::vector<int> choice_;
-  Glide glide_;
+  SmoothSetpoint setpoint_;
   QueueModel queues_;
   int to_ = -1;
   double time_s_ = 0;

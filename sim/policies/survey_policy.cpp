@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/policies/glide.h"
+#include "sim/policies/smooth_setpoint.h"
 
 namespace throng::sim {
 
@@ -37,26 +37,26 @@ std::vector<Vector2d> lanes_over(const world::Rectangle& area, double lane_m) {
 class SurveyPolicy : public Policy {
  public:
   explicit SurveyPolicy(const PolicyContext& context)
-      : speed_mps_(context.mission.speed_mps), glide_(context.start, context.yaw_rad) {
+      : speed_mps_(context.mission.speed_mps), setpoint_(context.start, context.yaw_rad) {
     const GuidanceSpec& guidance = context.mission.guidance;
     const double seen_m =
         2 * context.start.z() * std::tan(0.5 * context.mission.camera.pinhole_hfov_rad());
     path_ = lanes_over(guidance.area.value_or(context.scenario->inside.bounds),
                        seen_m * (1 - guidance.overlap.value_or(kUsualOverlap)));
-    glide_.go(path_[0], speed_mps_);
+    setpoint_.go(path_[0], speed_mps_);
   }
 
   Setpoint next(const FlightState& state, double dt_s) override {
-    if (glide_.arrived()) {
+    if (setpoint_.arrived()) {
       point_ = (point_ + 1) % path_.size();
-      glide_.go(path_[point_], speed_mps_);
+      setpoint_.go(path_[point_], speed_mps_);
     }
-    return glide_.advance(state, dt_s);
+    return setpoint_.advance(state, dt_s);
   }
 
  private:
   double speed_mps_;
-  Glide glide_;
+  SmoothSetpoint setpoint_;
   std::vector<Vector2d> path_;
   std::size_t point_ = 0;
 };

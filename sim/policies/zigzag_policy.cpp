@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/policies/glide.h"
 #include "sim/policies/lead_route.h"
+#include "sim/policies/smooth_setpoint.h"
 
 namespace throng::sim {
 
@@ -25,7 +25,7 @@ class ZigzagPolicy : public Policy {
         drone_(context.drone),
         speed_mps_(context.mission.speed_mps),
         choice_(exits_to_lead_to(scenario_, context.mission.guidance.exits)),
-        glide_(context.start, context.yaw_rad) {}
+        setpoint_(context.start, context.yaw_rad) {}
 
   void see(const WorldView& view) override {
     followers_ = static_cast<int>(
@@ -34,17 +34,17 @@ class ZigzagPolicy : public Policy {
     time_s_ = view.time_s;
     if (!path_.empty() && !is_open(to_)) {
       path_.clear();
-      glide_.stop();
+      setpoint_.stop();
     }
     if (path_.empty()) {
       plan_trip(view);
-    } else if (glide_.arrived()) {
+    } else if (setpoint_.arrived()) {
       next_leg();
     }
   }
 
   Setpoint next(const FlightState& state, double dt_s) override {
-    return glide_.advance(state, dt_s);
+    return setpoint_.advance(state, dt_s);
   }
 
   // Once on the first point of its sweep until it flies back.
@@ -61,7 +61,7 @@ class ZigzagPolicy : public Policy {
 
   void next_leg() {
     if (point_ + 1 < path_.size()) {
-      glide_.go(path_[++point_], speed_mps_);
+      setpoint_.go(path_[++point_], speed_mps_);
       arrived_s_ = -1;
       return;
     }
@@ -97,7 +97,7 @@ class ZigzagPolicy : public Policy {
     path_.insert(path_.end(), route.points.begin(), route.points.end());
     point_ = 0;
     arrived_s_ = -1;
-    glide_.go(path_[0], speed_mps_);
+    setpoint_.go(path_[0], speed_mps_);
   }
 
   // The next open exit, other than the one that people run to; -1: there is none.
@@ -113,7 +113,7 @@ class ZigzagPolicy : public Policy {
   int drone_;
   double speed_mps_;
   std::vector<int> choice_;
-  Glide glide_;
+  SmoothSetpoint setpoint_;
   std::vector<Vector2d> path_;  // of the trip; empty between trips
   std::size_t point_ = 0;       // of the path, to which it flies
   std::size_t turn_ = 0;

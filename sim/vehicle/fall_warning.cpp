@@ -18,7 +18,7 @@ GroundImpact ground_impact(const FlightState& state) {
   return {in_s, state.position.head<2>() + in_s * state.velocity.head<2>()};
 }
 
-void FallWarning::update(double time_s, const FallingCraft& vehicle, const PeopleInMotion& people,
+void FallWarning::update(double time_s, const FallingCraft& vehicle, const MovingPeople& people,
                          const std::function<void(const world::TraceEvent&)>& log) {
   if (done_ || vehicle.can_hold) return;
   done_ = true;

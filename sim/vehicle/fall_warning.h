@@ -35,7 +35,7 @@ class FallWarning {
  public:
   explicit FallWarning(std::size_t drone) : drone_(drone) {}
 
-  void update(double time_s, const FallingCraft& vehicle, const PeopleInMotion& people,
+  void update(double time_s, const FallingCraft& vehicle, const MovingPeople& people,
               const std::function<void(const world::TraceEvent&)>& log);
 
  private:

@@ -31,7 +31,7 @@ FlightClock make_clock(double interval_s, double physics_dt_s) {
 // People far from all drones cost no more than a lookup of their positions, and nothing while all
 // drones are high up.
 std::vector<NearPerson> people_near(std::span<const FlyingDrone> drones,
-                                    const PeopleInMotion& people) {
+                                    const MovingPeople& people) {
   std::vector<NearPerson> near;
   for (const FlyingDrone& drone : drones) {
     const Vector3d& position = drone.sampled.position;

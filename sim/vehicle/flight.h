@@ -64,7 +64,7 @@ class Flight {
   FlightClock clock_;
   Fleet fleet_;
   FlightLog log_;
-  PeopleInMotion people_;
+  MovingPeople people_;
   /// People relevant to any drone in this interval, as of the last samples.
   std::vector<NearPerson> near_;
   NearMisses near_misses_;

@@ -4,19 +4,19 @@
 
 namespace throng::sim {
 
-void PeopleInMotion::begin(const PeopleView& end, double interval_s) {
+void MovingPeople::begin(const PeopleView& end, double interval_s) {
   check(end.position.size() == end.present.size(), "everybody has a place and may be there");
   end_ = end;
   interval_s_ = interval_s;
   if (start_.size() != end.position.size()) finish();
 }
 
-void PeopleInMotion::finish() {
+void MovingPeople::finish() {
   start_.assign(end_.position.begin(), end_.position.end());
   was_present_.assign(end_.present.begin(), end_.present.end());
 }
 
-void PeopleInMotion::collect(const Area& area, std::vector<NearPerson>& list) const {
+void MovingPeople::collect(const Disc& area, std::vector<NearPerson>& list) const {
   const Eigen::Vector2f center = area.center.cast<float>();
   const auto reach2 = static_cast<float>(area.radius_m * area.radius_m);
   for (std::size_t i = 0; i < start_.size(); ++i) {

@@ -18,13 +18,13 @@ struct PeopleView {
 };
 
 /// A circle on the ground.
-struct Area {
+struct Disc {
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   double radius_m = 0;
 };
 
 /// The positions of all people at the start and the end of an interval, by area.
-class PeopleInMotion {
+class MovingPeople {
  public:
   /// Starts the next interval, at whose end the state is `end`. The arrays of `end` must remain
   /// valid until finish().
@@ -35,7 +35,7 @@ class PeopleInMotion {
 
   /// Appends to `list`, in the order of agents, the people who start the interval within the area
   /// and are present during all of it.
-  void collect(const Area& area, std::vector<NearPerson>& list) const;
+  void collect(const Disc& area, std::vector<NearPerson>& list) const;
 
  private:
   PeopleView end_;

@@ -29,7 +29,8 @@ struct FitOptions {
 struct IntrinsicsOptions {
   Lens lens = Lens::brown5;
   bool choose_lens = false;  ///< fit every model and keep the one with the smallest BIC
-  Wishes wishes;  ///< with `choose_lens`, parameters that a lens does not have are ignored
+  ParameterSettings
+      settings;  ///< with `choose_lens`, parameters that a lens does not have are ignored
   FitOptions fit;
   std::string source = "calibration";  ///< named in errors
 };

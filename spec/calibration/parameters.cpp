@@ -39,8 +39,10 @@ std::size_t parameter_index(Lens lens, const std::string& name, const std::strin
                                        fmt::join(parameter_names(lens), ", "), to_string(lens))});
 }
 
-void refuse_twice(const Wishes& wishes, const std::string& name, const std::string& source) {
-  const auto times = wishes.fixed.count(name) + wishes.tied.count(name) + wishes.priors.count(name);
+void refuse_twice(const ParameterSettings& settings, const std::string& name,
+                  const std::string& source) {
+  const auto times =
+      settings.fixed.count(name) + settings.tied.count(name) + settings.priors.count(name);
   if (times > 1) {
     throw InputError(Problem{source, "", fmt::format("\"{}\" more than once", name),
                              "each parameter fixed, tied or with a prior"});
@@ -90,17 +92,17 @@ std::vector<std::size_t> Rules::free_places() const {
   return places;
 }
 
-Rules calibration_rules(Lens lens, const Wishes& wishes, const std::string& source) {
+Rules calibration_rules(Lens lens, const ParameterSettings& settings, const std::string& source) {
   Rules rules;
   rules.ratio.fill(1);
   rules.fixed.fill(0);
   for (std::size_t i = 0; i < kParameters; ++i) {
     rules.source[i] = i;
-    rules.free[i] = !parameter_name(lens, i).empty() && (i != kSkew || wishes.skew);
+    rules.free[i] = !parameter_name(lens, i).empty() && (i != kSkew || settings.skew);
   }
-  for (const auto& [name, value] : wishes.fixed) {
+  for (const auto& [name, value] : settings.fixed) {
     const std::size_t i = parameter_index(lens, name, source);
-    refuse_twice(wishes, name, source);
+    refuse_twice(settings, name, source);
     if (!value && (i == kFx || i == kFy)) {
       throw InputError(Problem{source, "", fmt::format("{} fixed without a value", name),
                                fmt::format("{}=PIXELS", name)});
@@ -109,11 +111,11 @@ Rules calibration_rules(Lens lens, const Wishes& wishes, const std::string& sour
     const double guess = i == kCx || i == kCy ? std::numeric_limits<double>::quiet_NaN() : 0;
     rules.fixed[i] = value.value_or(guess);
   }
-  for (const auto& [name, tie] : wishes.tied) {
+  for (const auto& [name, tie] : settings.tied) {
     const std::size_t i = parameter_index(lens, name, source);
-    refuse_twice(wishes, name, source);
+    refuse_twice(settings, name, source);
     const std::size_t to = parameter_index(lens, tie.to, source);
-    if (to == i || wishes.tied.count(tie.to) > 0) {
+    if (to == i || settings.tied.count(tie.to) > 0) {
       throw InputError(Problem{source, "", fmt::format("{} tied to {}", name, tie.to),
                                "a tie to another parameter, which is not tied itself"});
     }
@@ -121,7 +123,7 @@ Rules calibration_rules(Lens lens, const Wishes& wishes, const std::string& sour
     rules.source[i] = to;
     rules.ratio[i] = tie.ratio;
   }
-  for (const auto& [name, prior] : wishes.priors) {
+  for (const auto& [name, prior] : settings.priors) {
     if (!(prior.sd > 0)) {
       throw InputError(Problem{source, "",
                                fmt::format("a prior of {} with deviation {}", name, prior.sd),

@@ -56,7 +56,7 @@ struct Tie {
 };
 
 /// A user's settings for parameters, by name.
-struct Wishes {
+struct ParameterSettings {
   bool skew = false;  ///< whether the skew is estimated; else it is 0
   /// Parameters that are not estimated, with their values. Without a value (not permitted for fx
   /// and fy), the parameter keeps its initial guess: cx and cy the image's center, others 0.
@@ -65,7 +65,7 @@ struct Wishes {
   std::map<std::string, Prior> priors;
 };
 
-/// The settings in `Wishes`, checked and addressed by the parameters' indices.
+/// The settings in `ParameterSettings`, checked and addressed by the parameters' indices.
 struct Rules {
   std::array<bool, kParameters> free{};
   /// Parameter i is `ratio[i]` times parameter `source[i]`; a parameter that is not tied has
@@ -83,7 +83,7 @@ struct Rules {
 /// lens does not have, ties to the parameter itself or to a tied parameter, a parameter that has
 /// more than one of a fixed value, a tie and a prior, fx or fy fixed without a value, and a prior
 /// whose standard deviation is not above 0.
-Rules calibration_rules(Lens lens, const Wishes& wishes, const std::string& source);
+Rules calibration_rules(Lens lens, const ParameterSettings& settings, const std::string& source);
 
 /// Sets the tied parameters to their values.
 void apply_ties(const Rules& rules, Parameters& parameters);

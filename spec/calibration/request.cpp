@@ -126,12 +126,12 @@ void set_images(ReadRequest& read, const json& value, const FieldLocation& place
   }
 }
 
-Wishes& wishes_in(ReadRequest& read) { return read.request.options.wishes; }
+ParameterSettings& settings_in(ReadRequest& read) { return read.request.options.settings; }
 
 void set_fixed(ReadRequest& read, const json& value, const FieldLocation& place) {
   for (const auto& [name, fixed] : value.items()) {
     if (fixed.is_null() || fixed.is_number()) {
-      wishes_in(read).fixed[name] =
+      settings_in(read).fixed[name] =
           fixed.is_null() ? std::nullopt : std::optional(fixed.get<double>());
     } else {
       place.below(name).reject(describe(fixed), "a number or null");
@@ -141,13 +141,13 @@ void set_fixed(ReadRequest& read, const json& value, const FieldLocation& place)
 
 void set_ties(ReadRequest& read, const json& value, const FieldLocation& place) {
   for (const auto& [name, tie] : value.items()) {
-    tie_fields().read_checked(tie, wishes_in(read).tied[name], place.below(name));
+    tie_fields().read_checked(tie, settings_in(read).tied[name], place.below(name));
   }
 }
 
 void set_priors(ReadRequest& read, const json& value, const FieldLocation& place) {
   for (const auto& [name, prior] : value.items()) {
-    prior_fields().read_checked(prior, wishes_in(read).priors[name], place.below(name));
+    prior_fields().read_checked(prior, settings_in(read).priors[name], place.below(name));
   }
 }
 
@@ -191,7 +191,8 @@ void add_lens(FieldTable<ReadRequest>& table) {
   table.add_read("lens", fields::one_of_words(lenses), set_lens, "Lens model; auto: by BIC.")
       .with_default("brown5");
   table.add("skew", "", "", fields::booleans(),
-            at(&ReadRequest::request, &Request::options, &IntrinsicsOptions::wishes, &Wishes::skew),
+            at(&ReadRequest::request, &Request::options, &IntrinsicsOptions::settings,
+               &ParameterSettings::skew),
             "Whether the skew is estimated.");
   table.add_read("fix", by_parameter({{"type", {"number", "null"}}}), set_fixed,
                  "Values of parameters that are not estimated; null: the initial value.");

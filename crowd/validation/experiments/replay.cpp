@@ -53,9 +53,9 @@ Group person(const Walk& walk, double dt_s, const FreeSpeeds& free_speeds) {
   return group;
 }
 
-Scene describe_recording(const Recording& recording, const Walks& recorded,
-                         const FreeSpeeds& free_speeds) {
-  Scene scene;
+TestScene describe_recording(const Recording& recording, const Walks& recorded,
+                             const FreeSpeeds& free_speeds) {
+  TestScene scene;
   scene.dt_s = kStepS;
   scene.walls = {oriented(recording.walkable, true)};
   for (const Polygon& obstacle : recording.obstacles)

@@ -28,7 +28,7 @@ using Positions = CountsCheck::Positions;
 /// Positions in records are rounded; on the border of an area both answers are right.
 constexpr double kBorderM = 0.02;
 
-struct Area {
+struct CountArea {
   bool is_zone = false;
   std::string id;
   std::vector<Vector2d> corners;  ///< of a line its two ends
@@ -44,10 +44,10 @@ Vector2d read_point(const json& value) {
   return {value.at(0).get<double>(), value.at(1).get<double>()};
 }
 
-std::vector<Area> read_areas(const json& record) {
-  std::vector<Area> areas;
+std::vector<CountArea> read_areas(const json& record) {
+  std::vector<CountArea> areas;
   for (const json& zone : record.at("zones")) {
-    Area& area = areas.emplace_back(Area{true, zone.at("id"), {}});
+    CountArea& area = areas.emplace_back(CountArea{true, zone.at("id"), {}});
     for (const json& corner : zone.at("corners")) area.corners.push_back(read_point(corner));
   }
   for (const json& line : record.at("lines")) {
@@ -79,14 +79,14 @@ std::vector<std::int64_t> parse_tracks(const std::string& cell) {
 }
 
 /// Signed distance from the line's side that is inward, without regard to its ends.
-double signed_distance(const Area& line, const Vector2d& place) {
+double signed_distance(const CountArea& line, const Vector2d& place) {
   const Vector2d along = line.corners[1] - line.corners[0];
   return geometry::cross(along, Vector2d(place - line.corners[0])) / along.norm();
 }
 
 /// The net crossings inward of somebody who went from one place to the other; nothing where that
 /// is not certain: near the line, or where they may have gone around its ends.
-std::optional<int> certain_crossing(const Area& line, const Vector2d& a, const Vector2d& b) {
+std::optional<int> certain_crossing(const CountArea& line, const Vector2d& a, const Vector2d& b) {
   constexpr double kCloseM = 0.05;
   const double way_m = (b - a).norm();
   for (const Vector2d& end : line.corners) {
@@ -103,7 +103,7 @@ std::optional<int> certain_crossing(const Area& line, const Vector2d& a, const V
 /// The rows of one area, from frame to frame.
 class AreaRows {
  public:
-  AreaRows(Area area, std::string file, Findings& findings)
+  AreaRows(CountArea area, std::string file, Findings& findings)
       : area_(std::move(area)), file_(std::move(file)), findings_(&findings) {}
 
   void add(std::int64_t frame, const std::string& inside, const Change& change,
@@ -157,16 +157,16 @@ class AreaRows {
     findings_->add("zone-counts", file_, fmt::format("frame {}, {}", frame_, area_.id), what);
   }
 
-  Area area_;
+  CountArea area_;
   std::string file_;
   Findings* findings_;
   std::int64_t frame_ = 0;
   Tracks inside_;
 };
 
-void check_table(const CsvTable& table, const std::vector<Area>& areas, const std::string& file,
-                 const DatasetInfo& info, const std::map<std::int64_t, Positions>& seen,
-                 Findings& findings) {
+void check_table(const CsvTable& table, const std::vector<CountArea>& areas,
+                 const std::string& file, const DatasetInfo& info,
+                 const std::map<std::int64_t, Positions>& seen, Findings& findings) {
   const std::vector<std::string> kColumns = {"frame",  "time_s",  "kind",    "id",  "inside",
                                              "inflow", "outflow", "entered", "left"};
   const auto frames = static_cast<std::size_t>(info.frames_per_camera);
@@ -177,7 +177,7 @@ void check_table(const CsvTable& table, const std::vector<Area>& areas, const st
   }
   std::vector<AreaRows> rows;
   rows.reserve(areas.size());
-  for (const Area& area : areas) rows.emplace_back(area, file, findings);
+  for (const CountArea& area : areas) rows.emplace_back(area, file, findings);
   const auto places_at = [&](std::int64_t frame) -> const Positions* {
     const auto found = seen.find(frame);
     return found == seen.end() ? nullptr : &found->second;
@@ -185,7 +185,7 @@ void check_table(const CsvTable& table, const std::vector<Area>& areas, const st
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const std::vector<std::string>& row = table.rows[i];
     const auto frame = static_cast<std::int64_t>(i / areas.size());
-    const Area& area = areas[i % areas.size()];
+    const CountArea& area = areas[i % areas.size()];
     const double time_s = info.from_s + static_cast<double>(frame) / info.rate_hz;
     constexpr double kRoundingS = 1e-6;
     if (row[0] != std::to_string(frame) || row[2] != (area.is_zone ? "zone" : "line") ||
@@ -244,13 +244,13 @@ void CountsCheck::finish(const DatasetInfo& info, Findings& findings) {
     try {
       const json record = parse_own_json(read_file(info.root / places), places);
       check_places(info.count_areas, record, places, findings);
-      const std::vector<Area> areas = read_areas(record);
+      const std::vector<CountArea> areas = read_areas(record);
       const bool has_everybody = info.has(GroundTruth::trajectories);
       const auto places_of_frames = has_everybody ? places_of_everybody(info, run) : seen_[run];
       check_table(read_csv(info.root / file), areas, file, info, places_of_frames, findings);
       for (const Visible& image : images_[run]) {
         std::size_t zone = 0;
-        for (const Area& area : areas) {
+        for (const CountArea& area : areas) {
           if (!area.is_zone) continue;
           check_visible(area.id, area.corners, image, zone++, findings);
         }

@@ -37,7 +37,7 @@ struct Grid {
 };
 
 /// Planes of fields/RUN/FRAME.npy.
-struct Field {
+struct FlowField {
   std::vector<float> values;
   std::size_t cells = 0;
 
@@ -48,7 +48,7 @@ struct Field {
   double voronoi(std::size_t i) const { return static_cast<double>(values[3 * cells + i]); }
 };
 
-Field read_field(const fs::path& file, const Grid& grid) {
+FlowField read_field(const fs::path& file, const Grid& grid) {
   constexpr std::size_t kPlanes = 4;
   return {read_npy(file, {kPlanes, static_cast<std::size_t>(grid.rows),
                           static_cast<std::size_t>(grid.columns)}),
@@ -57,7 +57,7 @@ Field read_field(const fs::path& file, const Grid& grid) {
 
 /// People in each cell of a level, by points of the finer grid's cells, each of which stands for an
 /// equal part of its cell.
-std::vector<double> people_of_level(const Grid& fine, const Field& field, const Grid& level) {
+std::vector<double> people_of_level(const Grid& fine, const FlowField& field, const Grid& level) {
   constexpr int kPoints = 8;  // along a cell's side
   const double part_m2 = fine.cell_m * fine.cell_m / (kPoints * kPoints);
   std::vector<double> people(level.cells());
@@ -118,7 +118,7 @@ Share smoothed_share(const People& people, const Grid& grid) {
 
 class FieldFile {
  public:
-  FieldFile(std::string path, const Grid& grid, const Field& field, Findings& findings)
+  FieldFile(std::string path, const Grid& grid, const FlowField& field, Findings& findings)
       : path_(std::move(path)), grid_(grid), field_(field), findings_(findings) {}
 
   void check_sums(double people) const {
@@ -145,7 +145,7 @@ class FieldFile {
   }
 
   /// The same people as in the field of the finer cells, where that has them.
-  void check_level(const Grid& fine, const Field& of_fine, double count) const {
+  void check_level(const Grid& fine, const FlowField& of_fine, double count) const {
     const std::vector<double> people = people_of_level(fine, of_fine, grid_);
     double off = 0;
     for (std::size_t i = 0; i < people.size(); ++i) {
@@ -252,7 +252,7 @@ class FieldFile {
 
   std::string path_;
   const Grid& grid_;
-  const Field& field_;
+  const FlowField& field_;
   Findings& findings_;
 };
 
@@ -340,12 +340,12 @@ void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) {
       for (std::size_t frame = 0; frame < people.size(); ++frame) {
         const std::string path = ground_truth_file(annotate::GroundTruth::fields, run, "",
                                                    static_cast<std::int64_t>(frame));
-        const Field field = read_field(info.root / path, grid);
+        const FlowField field = read_field(info.root / path, grid);
         const FieldFile file(path, grid, field, findings);
         file.check_sums(people.at(frame).get<double>());
         for (const Level& level : levels) {
           const std::string place = fmt::format("fields/{}/{}/{:06}.npy", run, level.folder, frame);
-          const Field coarse = read_field(info.root / place, level.grid);
+          const FlowField coarse = read_field(info.root / place, level.grid);
           const FieldFile level_file(place, level.grid, coarse, findings);
           level_file.check_sums(people.at(frame).get<double>());
           level_file.check_level(grid, field, people.at(frame).get<double>());

@@ -21,14 +21,14 @@ Control::Control(std::vector<std::string> drones, const Pace& pace, std::stop_to
       stop_(std::move(stop)),
       commanded_s_(drones_.size(), kNever),
       is_watched_(pace.is_watched) {
-  wishes_.commands.resize(drones_.size());
-  wishes_.factor = pace.factor;
-  wishes_.paused = pace.paused;
+  input_.commands.resize(drones_.size());
+  input_.factor = pace.factor;
+  input_.paused = pace.paused;
 }
 
 void Control::command(const Commands& commands) {
   const std::lock_guard lock(mutex_);
-  merge(commands, drones_, wishes_);
+  merge(commands, drones_, input_);
   for (const DroneCommand& drone : commands.drones) {
     if (!drone.velocity_mps && !drone.yaw_rate_deg_s) continue;
     const auto found = std::find(drones_.begin(), drones_.end(), drone.id);
@@ -39,7 +39,7 @@ void Control::command(const Commands& commands) {
 
 void Control::step(std::int64_t steps, Answer answer) {
   const std::lock_guard lock(mutex_);
-  if (!wishes_.paused) {
+  if (!input_.paused) {
     throw InputError({"/throng/step", "", "a flight that is not paused",
                       "one that is (/throng/pause, or the parameter paused)"});
   }
@@ -78,9 +78,9 @@ void Control::fail(std::exception_ptr problem) {
   changed_.notify_all();
 }
 
-Wishes Control::wishes() const {
+PilotInput Control::input() const {
   const std::lock_guard lock(mutex_);
-  return wishes_;
+  return input_;
 }
 
 double Control::time_s() const {
@@ -90,12 +90,12 @@ double Control::time_s() const {
 
 double Control::reached_factor() const {
   const std::lock_guard lock(mutex_);
-  return clock_.reached_factor(moment_->dt_s).value_or(wishes_.factor);
+  return clock_.reached_factor(moment_->dt_s).value_or(input_.factor);
 }
 
 void Control::begin(std::shared_ptr<const Moment> moment) {
   const std::lock_guard lock(mutex_);
-  wishes_.commands.assign(drones_.size(), {});
+  input_.commands.assign(drones_.size(), {});
   commanded_s_.assign(drones_.size(), kNever);
   moment_ = std::move(moment);
   is_at_rest_ = false;
@@ -110,7 +110,7 @@ Turn Control::wait_for_turn() {
     if (should_end()) return Turn::end;
     if (reset_) return Turn::reset;
     if (moment_->time_s + moment_->dt_s > max_s_ + world::kTimeSlackS) return Turn::end;
-    if (steps_ < goal_ || (!rests() && wishes_.factor == 0)) return Turn::step;
+    if (steps_ < goal_ || (!rests() && input_.factor == 0)) return Turn::step;
     if (rests()) {
       if (!std::exchange(is_at_rest_, true)) return Turn::rest;
       changed_.wait(lock, stop_,
@@ -119,20 +119,19 @@ Turn Control::wait_for_turn() {
       continue;
     }
     if (StepClock::Clock::now() >= clock_.next()) return Turn::step;
-    changed_.wait_until(lock, stop_, clock_.next(), [this] {
-      return rests() || wishes_.factor == 0 || reset_ || should_end();
-    });
+    changed_.wait_until(lock, stop_, clock_.next(),
+                        [this] { return rests() || input_.factor == 0 || reset_ || should_end(); });
   }
 }
 
-Wishes Control::in_force() const {
+PilotInput Control::in_force() const {
   const std::lock_guard lock(mutex_);
-  Wishes wishes = wishes_;
+  PilotInput input = input_;
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     const double silence_s = moment_->time_s - commanded_s_[i];
-    if (silence_s > kSilenceS - world::kTimeSlackS) stop_moving(wishes.commands[i]);
+    if (silence_s > kSilenceS - world::kTimeSlackS) stop_moving(input.commands[i]);
   }
-  return wishes;
+  return input;
 }
 
 void Control::done(std::shared_ptr<const Moment> moment) {
@@ -144,7 +143,7 @@ void Control::done(std::shared_ptr<const Moment> moment) {
     time_s = moment_->time_s;
     ++steps_;
     is_at_rest_ = false;
-    clock_.done(moment_->dt_s, wishes_.factor);
+    clock_.done(moment_->dt_s, input_.factor);
     const auto first =
         std::stable_partition(waiting_.begin(), waiting_.end(),
                               [this](const Waiting& each) { return each.step > steps_; });
@@ -177,7 +176,7 @@ void Control::refuse_all(const std::string& problem) {
 
 Control::Shown Control::shown() const {
   const std::lock_guard lock(mutex_);
-  if (rests() || wishes_.factor == 0) return {moment_, moment_->time_s};
+  if (rests() || input_.factor == 0) return {moment_, moment_->time_s};
   return {moment_, clock_.shown_time_s(moment_->time_s, moment_->dt_s)};
 }
 

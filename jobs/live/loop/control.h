@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "jobs/live/loop/moment.h"
+#include "jobs/live/loop/pilot_input.h"
 #include "jobs/live/loop/step_clock.h"
-#include "jobs/live/loop/wishes.h"
 #include "spec/live/commands.h"
 
 namespace throng::live {
@@ -67,7 +67,7 @@ class Control {
   void end();
   /// Ends the flight by an exception, which wait_for_turn() throws.
   void fail(std::exception_ptr problem);
-  Wishes wishes() const;
+  PilotInput input() const;
   double time_s() const;
   /// Simulated time per time, lately; that which is asked for after a rest.
   double reached_factor() const;
@@ -79,7 +79,7 @@ class Control {
   /// Waits until something is to be done.
   Turn wait_for_turn();
   /// The commands for the next step.
-  Wishes in_force() const;
+  PilotInput in_force() const;
   /// A step has been simulated.
   void done(std::shared_ptr<const Moment> moment);
   /// The reset that wait_for_turn() has reported.
@@ -104,14 +104,14 @@ class Control {
 
   // With the mutex held.
   bool should_end() const { return ends_ || problem_ || stop_.stop_requested(); }
-  bool rests() const { return wishes_.paused || !is_watched_; }
+  bool rests() const { return input_.paused || !is_watched_; }
 
   const std::vector<std::string> drones_;
   const double max_s_;
   std::stop_token stop_;
   mutable std::mutex mutex_;  ///< of all below
   std::condition_variable_any changed_;
-  Wishes wishes_;
+  PilotInput input_;
   std::vector<double> commanded_s_;  ///< per drone: simulated time of the last velocity
   std::shared_ptr<const Moment> moment_;
   std::uint64_t steps_ = 0;  ///< of all flights

@@ -10,7 +10,7 @@
 
 #include "jobs/live/loop/control.h"
 #include "jobs/live/loop/moment.h"
-#include "jobs/live/loop/wishes.h"
+#include "jobs/live/loop/pilot_input.h"
 
 namespace throng::live {
 
@@ -40,8 +40,8 @@ struct FlightImages {
 
 /// The flight that a loop flies. All but the images are called on the loop's thread.
 struct FlightParts {
-  /// Simulates a step with these wishes and returns the moment at its end.
-  std::function<std::shared_ptr<const Moment>(const Wishes& wishes)> step;
+  /// Simulates a step with this input and returns the moment at its end.
+  std::function<std::shared_ptr<const Moment>(const PilotInput& input)> step;
   /// Time has begun to stand still.
   std::function<void()> rest = [] {};
   /// Begins the flight that Control::take_reset() asks for. False: it cannot, and this one goes on.

@@ -106,9 +106,9 @@ void FoxgloveBridge::tell(foxglove::Level level, const std::string& text) {
 }
 
 std::vector<Parameter> FoxgloveBridge::parameters() const {
-  const Wishes wishes = control_.wishes();
+  const PilotInput input = control_.input();
   std::vector<Parameter> all = {
-      {"factor", wishes.factor}, {"paused", wishes.paused}, {"view", ids_.at(wishes.view)}};
+      {"factor", input.factor}, {"paused", input.paused}, {"view", ids_.at(input.view)}};
   const std::lock_guard lock(mutex_);
   all.insert(all.end(), facts_.begin(), facts_.end());
   return all;

@@ -125,7 +125,7 @@ class OutsideFlight {
     topics.add(*flight.moment(0), {}, {});
     std::unique_ptr<Stage> next;
     FlightParts parts;
-    parts.step = [&](const Wishes& wishes) { return step(wishes, topics); };
+    parts.step = [&](const PilotInput& input) { return step(input, topics); };
     parts.reset = [&] {
       next = begin_anew();
       return next != nullptr;
@@ -143,10 +143,10 @@ class OutsideFlight {
     return true;
   }
 
-  std::shared_ptr<const Moment> step(const Wishes& wishes, FlightTopics& topics) {
+  std::shared_ptr<const Moment> step(const PilotInput& input, FlightTopics& topics) {
     Flight& flight = stage_->flight;
-    std::shared_ptr<const Moment> moment = flight.step(wishes.commands, wishes.sequence);
-    topics.add(*moment, wishes.commands, flight.take_events());
+    std::shared_ptr<const Moment> moment = flight.step(input.commands, input.sequence);
+    topics.add(*moment, input.commands, flight.take_events());
     news_.on_step(moment->time_s, control_.reached_factor());
     return moment;
   }
@@ -162,7 +162,7 @@ class OutsideFlight {
       };
     };
     images.is_wanted = [this, is_recorded](std::size_t drone) {
-      return bridge_->wants_images(drone) || (is_recorded && control_.wishes().view == drone);
+      return bridge_->wants_images(drone) || (is_recorded && control_.input().view == drone);
     };
     images.take = [&topics](const FlightImage& image) {
       topics.add_image(*image.moment, image.drone, image.time_s, image.jpeg);

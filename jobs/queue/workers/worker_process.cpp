@@ -57,7 +57,7 @@ void confine(const WorkerRights& rights) {
   // One that publishes opens no file of strangers: the dataset's are sent as they are.
   const Network network = rights.publishes ? Network::allowed : Network::refused;
   for (const std::string& unlimited : {limit_this_process(network), fence_worker(rights)}) {
-    if (!unlimited.empty()) spdlog::warn("the kernel lets nobody limit {}", unlimited);
+    if (!unlimited.empty()) spdlog::warn("the kernel does not support limits of {}", unlimited);
   }
 }
 

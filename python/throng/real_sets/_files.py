@@ -105,28 +105,28 @@ def read_frames(
     path: Path,
     columns: str,
     at_least: int,
-    pictures: dict[int, Path],
+    image_files: dict[int, Path],
     use: Callable[[int, list[float]], None],
     skips: Skips,
 ) -> None:
     """Hands frame and values of each line of a sequence's labels to `use`.
 
-    Wrong lines are left out, and the frames that they begin with are removed from `pictures`: their labels are not whole.
+    Wrong lines are left out, and the frames that they begin with are removed from `image_files`: their labels are not whole.
     """
-    whole = len(pictures)
+    whole = len(image_files)
     incomplete: set[int] = set()
     for number, text in _lines(path):
         frame = None
         try:
             frame = _frame_number(text)
-            if frame not in pictures and frame not in incomplete:
+            if frame not in image_files and frame not in incomplete:
                 raise WrongLine(f"found the frame {frame}, expected one of {whole} images")
             use(frame, _numbers(text, columns, at_least))
         except WrongLine as error:
             skips.add(Skipped(path, str(error), number))
             if frame is not None:
                 incomplete.add(frame)
-                pictures.pop(frame, None)
+                image_files.pop(frame, None)
 
 
 def _frame_number(text: str) -> int:
@@ -163,18 +163,18 @@ def pairs(
 ) -> Iterator[tuple[Path, Path]]:
     """Each file of labels with its image, which has the same name without the prefix; those without the other are left
     out. is_whole: each image should have labels."""
-    pictures: dict[str, Path] = {}
+    image_files: dict[str, Path] = {}
     for path in files_in(images, IMAGES, skips):
-        pictures.setdefault(path.stem, path)
+        image_files.setdefault(path.stem, path)
     for path in labels:
         stem = path.stem.removeprefix(prefix)
-        picture = pictures.pop(stem, None)
-        if picture is None:
+        image_file = image_files.pop(stem, None)
+        if image_file is None:
             skips.add(Skipped(path, f"found no image {images / stem}.jpg (or .png), expected one for these labels"))
         else:
-            yield path, picture
-    for stem, picture in pictures.items() if is_whole else ():
-        skips.add(Skipped(picture, f"found no labels {prefix}{stem}, expected a file of them for each image"))
+            yield path, image_file
+    for stem, image_file in image_files.items() if is_whole else ():
+        skips.add(Skipped(image_file, f"found no labels {prefix}{stem}, expected a file of them for each image"))
 
 
 def sequences(labels: Mapping[str, Path], folder: Path, skips: Skips) -> Iterator[tuple[Path, Path]]:

@@ -45,25 +45,25 @@ class RealImage:
     def image(self) -> NDArray[np.uint8]:
         """(height, width, 3) RGB. Needs Pillow."""
         pil = require("PIL.Image", "image()")
-        with _opened(self.path, pil) as picture:
-            return np.array(picture.convert("RGB"))
+        with _opened(self.path, pil) as decoded:
+            return np.array(decoded.convert("RGB"))
 
     def check(self) -> None:
         """DatasetError for an image that lacks its beginning or end, where Pillow is installed. Sets are large: what is
         between is only decoded by image()."""
         pil = available("PIL.Image")
         if pil is not None:
-            with _opened(self.path, pil) as picture, open(self.path, "rb") as file:
+            with _opened(self.path, pil) as decoded, open(self.path, "rb") as file:
                 file.seek(max(0, file.seek(0, os.SEEK_END) - _TAIL_BYTES))
-                if (_END_OF_PNG if picture.format == "PNG" else _END_OF_JPEG) not in file.read():
-                    picture.load()  # some have other data behind the image
+                if (_END_OF_PNG if decoded.format == "PNG" else _END_OF_JPEG) not in file.read():
+                    decoded.load()  # some have other data behind the image
 
 
 @contextmanager
 def _opened(path: Path, pil: Any) -> Iterator[Any]:
     try:
-        with pil.open(path, formats=("JPEG", "PNG")) as picture:
-            yield picture
+        with pil.open(path, formats=("JPEG", "PNG")) as decoded:
+            yield decoded
     except Exception as error:  # Pillow raises many kinds for files that are damaged
         raise Fault(path, f"found no whole image ({error})") from error
 
@@ -116,9 +116,9 @@ def read_mats(images: Path, labels: Path, skips: Skips, sequence_of: Callable[[s
     found = []
     with skips.faults():
         mats = [path for path in files_in(labels, (".mat",), skips) if path.stem.startswith("GT_")]
-        for path, picture in pairs(mats, images, skips, "GT_"):
+        for path, image_file in pairs(mats, images, skips, "GT_"):
             with skips.faults():
-                found.append(RealImage(picture, sequence_of(picture.stem), None, table([], 4), read_heads(path)))
+                found.append(RealImage(image_file, sequence_of(image_file.stem), None, table([], 4), read_heads(path)))
     return found
 
 

@@ -57,17 +57,17 @@ def _read_tracks(folder: Path, skips: Skips) -> list[RealImage]:
     labeled: set[Path] = set()
     for name in sorted(texts.keys() - with_folder.keys()):
         with skips.faults():
-            pictures = _pictures(singles, texts[name])
-            labeled.update(pictures.values())
-            images += _sequence(texts[name], pictures, skips)
-    for picture in singles:
-        if picture not in labeled:
-            skips.add(Skipped(picture, "found no labels of its sequence, expected a file of them"))
+            image_files = _numbered_images(singles, texts[name])
+            labeled.update(image_files.values())
+            images += _sequence(texts[name], image_files, skips)
+    for image_file in singles:
+        if image_file not in labeled:
+            skips.add(Skipped(image_file, "found no labels of its sequence, expected a file of them"))
     return images
 
 
-def _sequence(path: Path, pictures: dict[int, Path], skips: Skips) -> list[RealImage]:
-    heads: dict[int, list[list[float]]] = {number: [] for number in pictures}
+def _sequence(path: Path, image_files: dict[int, Path], skips: Skips) -> list[RealImage]:
+    heads: dict[int, list[list[float]]] = {number: [] for number in image_files}
 
     def add(number: int, values: list[float]) -> None:
         left, top, width, height, out = values[2:7]
@@ -76,19 +76,23 @@ def _sequence(path: Path, pictures: dict[int, Path], skips: Skips) -> list[RealI
         if out == 0:
             heads[number].append([left + width / 2, top + height / 2])
 
-    read_frames(path, _COLUMNS, 8, pictures, add, skips)
+    read_frames(path, _COLUMNS, 8, image_files, add, skips)
     return [
-        RealImage(picture, path.stem, None, table([], 4), table(heads[number], 2))
-        for number, picture in pictures.items()
+        RealImage(image_file, path.stem, None, table([], 4), table(heads[number], 2))
+        for number, image_file in image_files.items()
     ]
 
 
-def _pictures(singles: list[Path], path: Path) -> dict[int, Path]:
+def _numbered_images(singles: list[Path], path: Path) -> dict[int, Path]:
     """A sequence's images by frame, from 1, of images in one folder: its number is the first three digits of their names."""
     if path.stem.isdigit():
         prefix = f"img{int(path.stem):0{_SEQUENCE_DIGITS}}"
-        numbers = {picture.stem.removeprefix(prefix): picture for picture in singles if picture.stem.startswith(prefix)}
-        found = {int(number): picture for number, picture in numbers.items() if number.isdigit()}
+        numbers = {
+            image_file.stem.removeprefix(prefix): image_file
+            for image_file in singles
+            if image_file.stem.startswith(prefix)
+        }
+        found = {int(number): image_file for number, image_file in numbers.items() if number.isdigit()}
         if found:
             return found
     raise Fault(path, f"found no images, expected the folder images/{path.stem} or images by sequence")

@@ -34,9 +34,9 @@ def read_mot(folder: Path, skips: Skips) -> list[RealImage]:
 
 
 def _sequence(folder: Path, skips: Skips) -> list[RealImage]:
-    pictures = numbered(folder / "img1", skips)
-    people: dict[int, list[list[float]]] = {number: [] for number in pictures}
-    ignored: dict[int, list[list[float]]] = {number: [] for number in pictures}
+    image_files = numbered(folder / "img1", skips)
+    people: dict[int, list[list[float]]] = {number: [] for number in image_files}
+    ignored: dict[int, list[list[float]]] = {number: [] for number in image_files}
 
     def add(number: int, values: list[float]) -> None:
         left, top, width, height, considered = values[2:7]
@@ -50,8 +50,8 @@ def _sequence(folder: Path, skips: Skips) -> list[RealImage]:
         elif person_class in (_PEDESTRIAN, *_NOT_SCORED):
             ignored[number].append(box)
 
-    read_frames(folder / "gt/gt.txt", _COLUMNS, 7, pictures, add, skips)
+    read_frames(folder / "gt/gt.txt", _COLUMNS, 7, image_files, add, skips)
     return [
-        RealImage(picture, folder.name, read_boxes(people[number]), read_boxes(ignored[number]), None)
-        for number, picture in pictures.items()
+        RealImage(image_file, folder.name, read_boxes(people[number]), read_boxes(ignored[number]), None)
+        for number, image_file in image_files.items()
     ]

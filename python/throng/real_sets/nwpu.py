@@ -26,9 +26,9 @@ def read_nwpu(folder: Path, skips: Skips) -> list[RealImage]:
             labels, is_chosen = files_in(part / "jsons", (".json",), skips), (part / "val.txt").is_file()
             if is_chosen:
                 labels = _chosen(part / "val.txt", labels, skips)
-            for path, picture in pairs(labels, part / "images", skips, is_whole=not is_chosen):
+            for path, image_file in pairs(labels, part / "images", skips, is_whole=not is_chosen):
                 with skips.faults():
-                    images.append(RealImage(picture, "", None, table([], 4), _points(path)))
+                    images.append(RealImage(image_file, "", None, table([], 4), _points(path)))
     return images
 
 

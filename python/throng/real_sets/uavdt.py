@@ -33,9 +33,9 @@ def read_uavdt(folder: Path, skips: Skips) -> list[RealImage]:
 
 
 def _sequence(path: Path, frames: Path, skips: Skips) -> list[RealImage]:
-    pictures = numbered(frames, skips)
-    people: dict[int, list[list[float]]] = {number: [] for number in pictures}
-    ignored: dict[int, list[list[float]]] = {number: [] for number in pictures}
+    image_files = numbered(frames, skips)
+    people: dict[int, list[list[float]]] = {number: [] for number in image_files}
+    ignored: dict[int, list[list[float]]] = {number: [] for number in image_files}
 
     def add(number: int, values: list[float]) -> None:
         if values[8] not in (_CAR, _TRUCK, _BUS, _PERSON):
@@ -43,11 +43,11 @@ def _sequence(path: Path, frames: Path, skips: Skips) -> list[RealImage]:
         if values[8] == _PERSON:
             people[number].append(values[2:6])
 
-    read_frames(path, _WHOLE, 9, pictures, add, skips)
+    read_frames(path, _WHOLE, 9, image_files, add, skips)
     ignore = path.with_name(f"{frames.name}_gt_ignore.txt")
     if ignore.is_file():
-        read_frames(ignore, _IGNORE, 6, pictures, lambda number, values: ignored[number].append(values[2:6]), skips)
+        read_frames(ignore, _IGNORE, 6, image_files, lambda number, values: ignored[number].append(values[2:6]), skips)
     return [
-        RealImage(picture, frames.name, read_boxes(people[number]), read_boxes(ignored[number]), None)
-        for number, picture in pictures.items()
+        RealImage(image_file, frames.name, read_boxes(people[number]), read_boxes(ignored[number]), None)
+        for number, image_file in image_files.items()
     ]

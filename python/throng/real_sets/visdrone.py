@@ -55,11 +55,11 @@ class _Labels:
 
 def _read_images(folder: Path, skips: Skips) -> list[RealImage]:
     images = []
-    for path, picture in pairs(files_in(folder / "annotations", (".txt",), skips), folder / "images", skips):
+    for path, image_file in pairs(files_in(folder / "annotations", (".txt",), skips), folder / "images", skips):
         labels = _Labels()
         with skips.faults():
             read_lines(path, _IMAGE, 8, labels.add)
-            images.append(labels.image(picture, ""))
+            images.append(labels.image(image_file, ""))
     return images
 
 
@@ -68,8 +68,8 @@ def _read_videos(folder: Path, skips: Skips) -> list[RealImage]:
     texts = {path.stem: path for path in files_in(folder / "annotations", (".txt",), skips)}
     for path, frames in sequences(texts, folder / "sequences", skips):
         with skips.faults():
-            pictures = numbered(frames, skips)
-            labels = {number: _Labels() for number in pictures}
-            read_frames(path, _VIDEO, 10, pictures, lambda number, values: labels[number].add(values[2:]), skips)
-            images += [labels[number].image(picture, path.stem) for number, picture in pictures.items()]
+            image_files = numbered(frames, skips)
+            labels = {number: _Labels() for number in image_files}
+            read_frames(path, _VIDEO, 10, image_files, lambda number, values: labels[number].add(values[2:]), skips)
+            images += [labels[number].image(image_file, path.stem) for number, image_file in image_files.items()]
     return images

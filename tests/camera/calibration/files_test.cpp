@@ -210,8 +210,8 @@ TEST_F(Files, RequestsAreCheckedFieldByField) {
           "fix": {"cx": 960, "cy": null}, "tie": {"fy": {"to": "fx"}},
           "prior": {"k1": {"mean": 0, "sd": 0.5}}})");
   EXPECT_TRUE(good.options.choose_lens);
-  EXPECT_EQ(good.options.wishes.fixed.at("cx"), 960);
-  EXPECT_EQ(good.options.wishes.tied.at("fy").to, "fx");
+  EXPECT_EQ(good.options.settings.fixed.at("cx"), 960);
+  EXPECT_EQ(good.options.settings.tied.at("fy").to, "fx");
   double last = 0;
   const Calibration found = carry_out(read(R"({"points": "points.csv", "size": "1920x1080"})"),
                                       [&](double share, const std::string&) { last = share; });

@@ -44,7 +44,7 @@ TEST(Intrinsics, FindSkew) {
   SyntheticCamera camera;
   camera.parameters[kSkew] = 3;
   IntrinsicsOptions options;
-  options.wishes.skew = true;
+  options.settings.skew = true;
   const Calibration found = calibrate_intrinsics(synthetic_views(camera, 15, 0, 2).all, options);
   EXPECT_NEAR(found.parameters[kSkew], 3, 1e-6);
 }
@@ -107,10 +107,10 @@ TEST(Intrinsics, KeepFixedTiedAndKnownParameters) {
   const SyntheticCamera camera;
   const SyntheticViews views = synthetic_views(camera, 8, 0.2, 3);
   IntrinsicsOptions options;
-  options.wishes.fixed["k3"] = -0.01;
-  options.wishes.fixed["cy"] = std::nullopt;
-  options.wishes.tied["fy"] = {"fx", 1.0};
-  options.wishes.priors["cx"] = {959.5, 0.01};
+  options.settings.fixed["k3"] = -0.01;
+  options.settings.fixed["cy"] = std::nullopt;
+  options.settings.tied["fy"] = {"fx", 1.0};
+  options.settings.priors["cx"] = {959.5, 0.01};
   const Calibration found = calibrate_intrinsics(views.all, options);
   EXPECT_EQ(found.parameters[9], -0.01);
   EXPECT_EQ(found.sd[9], 0);
@@ -133,7 +133,7 @@ TEST(Intrinsics, TheBicFindsTheLensThatWasThere) {
     add_outliers(views.all, 0.01, 20, 3);
     IntrinsicsOptions options;
     options.choose_lens = true;
-    options.wishes.fixed["k6"] = 0;  // only some of the lenses have it
+    options.settings.fixed["k6"] = 0;  // only some of the lenses have it
     const Calibration found = calibrate_intrinsics(views.all, options);
     EXPECT_EQ(to_string(found.lens), to_string(lens));
     ASSERT_FALSE(found.models.empty());
@@ -179,8 +179,8 @@ TEST(Intrinsics, RefuseTooFewViews) {
     EXPECT_THAT(error.what(), HasSubstr("at least 2"));
   }
   IntrinsicsOptions options;
-  options.wishes.fixed["cx"] = std::nullopt;
-  options.wishes.fixed["cy"] = std::nullopt;
+  options.settings.fixed["cx"] = std::nullopt;
+  options.settings.fixed["cy"] = std::nullopt;
   EXPECT_NEAR(calibrate_intrinsics(views.all, options).parameters[kFx], 1200, 100);
 }
 

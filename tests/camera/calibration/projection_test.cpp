@@ -78,21 +78,21 @@ TEST(Projection, ShowsNothingBehindTheCamera) {
 }
 
 TEST(Rules, RefuseContradictions) {
-  Wishes wishes;
-  wishes.fixed["k9"] = 0;
-  EXPECT_THROW(calibration_rules(Lens::brown5, wishes, "--fix"), InputError);
-  wishes = {};
-  wishes.fixed["k3"] = 0;
-  EXPECT_THROW(calibration_rules(Lens::brown4, wishes, "--fix"), InputError);
-  wishes.priors["k3"] = {0, 0.1};
-  EXPECT_THROW(calibration_rules(Lens::brown5, wishes, "--fix"), InputError);
-  wishes = {};
-  wishes.tied["fx"] = {"fy", 1};
-  wishes.tied["fy"] = {"fx", 1};
-  EXPECT_THROW(calibration_rules(Lens::brown5, wishes, "--tie"), InputError);
-  wishes = {};
-  wishes.fixed["fx"] = std::nullopt;
-  EXPECT_THROW(calibration_rules(Lens::brown5, wishes, "--fix"), InputError);
+  ParameterSettings settings;
+  settings.fixed["k9"] = 0;
+  EXPECT_THROW(calibration_rules(Lens::brown5, settings, "--fix"), InputError);
+  settings = {};
+  settings.fixed["k3"] = 0;
+  EXPECT_THROW(calibration_rules(Lens::brown4, settings, "--fix"), InputError);
+  settings.priors["k3"] = {0, 0.1};
+  EXPECT_THROW(calibration_rules(Lens::brown5, settings, "--fix"), InputError);
+  settings = {};
+  settings.tied["fx"] = {"fy", 1};
+  settings.tied["fy"] = {"fx", 1};
+  EXPECT_THROW(calibration_rules(Lens::brown5, settings, "--tie"), InputError);
+  settings = {};
+  settings.fixed["fx"] = std::nullopt;
+  EXPECT_THROW(calibration_rules(Lens::brown5, settings, "--fix"), InputError);
 }
 
 }  // namespace

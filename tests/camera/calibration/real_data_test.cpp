@@ -89,7 +89,7 @@ TEST_F(RealData, TheBicPutsLensesWithoutDistortionLast) {
 
 TEST_F(RealData, ThePublishedFileIsReproduced) {
   IntrinsicsOptions options;
-  options.wishes.tied["fx"] = {"fy", 1};
+  options.settings.tied["fx"] = {"fy", 1};
   options.fit.reject = false;
   const Calibration found = calibrate_intrinsics(corners("corners_left_win11.csv"), options);
   expect_equal(found, reference("left_published_yml"));
@@ -138,7 +138,7 @@ TEST_F(RealData, ZhangsPointsGiveHisCameraWithSkew) {
   }
   IntrinsicsOptions options;
   options.lens = Lens::brown2;
-  options.wishes.skew = true;
+  options.settings.skew = true;
   const Calibration found = calibrate_intrinsics(all, options);
   const json wanted = reference("zhang1998").at("published");
   EXPECT_NEAR(found.parameters[kFx], wanted.at("alpha").get<double>(), 0.01);

@@ -58,7 +58,7 @@ TEST(Room, HasOneWallPieceMoreThanDoorsOnASide) {
 }
 
 TEST(UntilAllLeft, GivesUpOnAJam) {
-  Scene scene;
+  TestScene scene;
   scene.walls = room(4, 4, {});
   Group group;
   group.places = {{2, 2}};

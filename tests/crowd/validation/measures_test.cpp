@@ -24,8 +24,8 @@ Tested restless(double stddev_m) {
 }
 
 /// People at these places walk to the right at 1 m/s and leave at x = 10 m.
-Scene walk_right(const std::vector<Vector2d>& places) {
-  Scene scene;
+TestScene walk_right(const std::vector<Vector2d>& places) {
+  TestScene scene;
   Group group;
   group.places = places;
   group.aside_m = 0;
@@ -89,7 +89,7 @@ TEST(WalkAlone, MeasuresFreeSpeeds) {
 }
 
 TEST(ExitsUsed, CountsByTheNearestExit) {
-  Scene scene = walk_right({{0, 0}, {0, 1}, {0, 20}});
+  TestScene scene = walk_right({{0, 0}, {0, 1}, {0, 20}});
   crowd::Simulation crowd = load(scene, kDummy, 1);
   EXPECT_EQ(exits_used(crowd, {Vector2d(10, 20), Vector2d(10, 0), Vector2d(0, 0)}, 60),
             (std::vector<int>{1, 2, 0}));

@@ -51,7 +51,7 @@ double total_area(const std::vector<Polygon>& walls) {
   return sum;
 }
 
-std::vector<Vector2d> all_places(const Scene& scene) {
+std::vector<Vector2d> all_places(const TestScene& scene) {
   std::vector<Vector2d> places;
   for (const Group& group : scene.groups) {
     places.insert(places.end(), group.places.begin(), group.places.end());
@@ -60,7 +60,7 @@ std::vector<Vector2d> all_places(const Scene& scene) {
 }
 
 /// People stand in no wall and, with their random displacement, do not overlap much at the start.
-void expect_free_places(const Scene& scene) {
+void expect_free_places(const TestScene& scene) {
   for (const Vector2d& place : all_places(scene)) {
     EXPECT_FALSE(blocked(scene.walls, place)) << place.transpose();
   }
@@ -144,7 +144,7 @@ TEST(Room, HasDoorsOfTheirWidthAtTheirPositions) {
 
 TEST(RoomWithDoor, IsTheRoomOfTheTable) {
   for (const auto& [width, depth] : {std::pair(0.8, 0.2), std::pair(2.0, 4.0)}) {
-    const Scene scene = room_with_door({width, depth, 150});
+    const TestScene scene = room_with_door({width, depth, 150});
     // 10 m x 10 m inside.
     for (const double x : {-9.99, -5.0, -0.01}) {
       for (const double y : {-4.99, 0.0, 4.99}) {
@@ -172,7 +172,7 @@ TEST(RoomWithDoor, IsTheRoomOfTheTable) {
 }
 
 TEST(TwoRooms, HaveACorridorOf10By2Meters) {
-  const Scene scene = two_rooms(50);
+  const TestScene scene = two_rooms(50);
   for (const double x : {0.01, 5.0, 9.99}) {
     for (const int side : {-1, 1}) {
       EXPECT_FALSE(blocked(scene.walls, {x, side * 0.99}));
@@ -195,7 +195,7 @@ TEST(Ring, HasTwoWallsAndPeopleBetween) {
   spec.radius_m = 10;
   spec.width_m = 2;
   spec.people = 77;
-  const Scene scene = ring(spec);
+  const TestScene scene = ring(spec);
   ASSERT_EQ(scene.walls.size(), 2);
   // A regular polygon of n corners has the area n / 2 r^2 sin(2 pi / n).
   const double unit = 60 * std::sin(2 * M_PI / 120);
@@ -213,7 +213,7 @@ TEST(Ring, HasTwoWallsAndPeopleBetween) {
 }
 
 TEST(Load, PutsPeopleNearTheirPlacesBySeed) {
-  Scene scene = room_with_door({1, 0.2, 40});
+  TestScene scene = room_with_door({1, 0.2, 40});
   scene.groups[0].aside_m = 0.15;
   const crowd::Simulation one = load(scene, {"orca"}, 7);
   const crowd::Simulation same = load(scene, {"weidmann"}, 7);
@@ -230,7 +230,7 @@ TEST(Load, PutsPeopleNearTheirPlacesBySeed) {
 }
 
 TEST(Load, PutsPeopleExactlyWhereNothingIsRandom) {
-  Scene scene = room_with_door({1, 0.2, 10});
+  TestScene scene = room_with_door({1, 0.2, 10});
   scene.groups[0].aside_m = 0;
   scene.groups[0].radius_m = 0.31;
   scene.groups[0].speed = Sampled::constant(0.9);
@@ -258,7 +258,7 @@ TEST(Load, SamplesWeidmannsFreeSpeedsByDefault) {
 }
 
 TEST(Load, KeepsTheSceneTimeStepForEveryModel) {
-  Scene scene = room_with_door({1, 0.2, 5});
+  TestScene scene = room_with_door({1, 0.2, 5});
   for (const char* model : {"orca", "helbing"}) {
     crowd::Simulation crowd = load(scene, {model}, 1);
     crowd.step();

@@ -22,17 +22,17 @@ namespace {
 /// A flight whose steps are as many as they were asked for.
 struct Flown {
   int steps = 0;
-  std::vector<Wishes> wishes;  ///< of each step
+  std::vector<PilotInput> input;  ///< of each step
 
-  std::shared_ptr<const Moment> step(const Wishes& given) {
-    wishes.push_back(given);
+  std::shared_ptr<const Moment> step(const PilotInput& given) {
+    input.push_back(given);
     return moment(++steps);
   }
 };
 
 FlightParts make_parts(Flown& flown) {
   FlightParts parts;
-  parts.step = [&flown](const Wishes& wishes) { return flown.step(wishes); };
+  parts.step = [&flown](const PilotInput& input) { return flown.step(input); };
   return parts;
 }
 
@@ -66,7 +66,7 @@ FlightImages images_into(Album& album, const Control& control) {
       return std::to_string(drone) + "@" + std::to_string(time_s);
     };
   };
-  images.is_wanted = [&control](std::size_t drone) { return control.wishes().view == drone; };
+  images.is_wanted = [&control](std::size_t drone) { return control.input().view == drone; };
   images.take = [&album](const FlightImage& image) { album.add(image); };
   return images;
 }
@@ -77,20 +77,20 @@ TEST(FlightLoop, FliesToItsEndAndADroneStopsASecondAfterItsPilot) {
   control.command(read(R"({"sequence": 7, "drones": [{"id": "d1", "velocity_mps": [3, 0, 0]}]})"));
   Flown flown;
   FlightParts parts = make_parts(flown);
-  parts.step = [&](const Wishes& wishes) {
+  parts.step = [&](const PilotInput& input) {
     // The other drone's pilot goes on, every half second.
     if (flown.steps % 5 == 0) {
       control.command(read(R"({"drones": [{"id": "d2", "yaw_rate_deg_s": 20}]})"));
     }
-    return flown.step(wishes);
+    return flown.step(input);
   };
   EXPECT_FALSE(fly(control, parts));
   ASSERT_EQ(flown.steps, 20);
-  for (std::size_t i = 0; i < flown.wishes.size(); ++i) {
-    const std::vector<sim::RemoteCommand>& commands = flown.wishes[i].commands;
+  for (std::size_t i = 0; i < flown.input.size(); ++i) {
+    const std::vector<sim::RemoteCommand>& commands = flown.input[i].commands;
     EXPECT_EQ(commands[0].velocity_mps.x(), i < 10 ? 3 : 0) << i;
     EXPECT_EQ(commands[1].yaw_rate_deg_s, i > 0 ? 20 : 0) << i;
-    EXPECT_EQ(flown.wishes[i].sequence, 7U);
+    EXPECT_EQ(flown.input[i].sequence, 7U);
   }
 }
 
@@ -100,9 +100,9 @@ TEST(FlightLoop, TimeStandsStillWhileNobodyLooksOn) {
   Flown flown;
   std::vector<int> rests;  // the steps before them
   FlightParts parts = make_parts(flown);
-  parts.step = [&](const Wishes& wishes) {
+  parts.step = [&](const PilotInput& input) {
     if (flown.steps == 4) control.watch(false);
-    return flown.step(wishes);
+    return flown.step(input);
   };
   parts.rest = [&] {
     rests.push_back(flown.steps);
@@ -123,11 +123,11 @@ TEST(FlightLoop, AResetDuringAStepWaitsForItsEnd) {
   std::promise<void> asked;
   std::string order;
   FlightParts parts = make_parts(flown);
-  parts.step = [&](const Wishes& wishes) {
+  parts.step = [&](const PilotInput& input) {
     begun.set_value();
     asked.get_future().wait();
     order += "step ";
-    return flown.step(wishes);
+    return flown.step(input);
   };
   parts.reset = [&] {
     const Control::Reset reset = control.take_reset();
@@ -177,7 +177,7 @@ TEST(FlightLoop, ThrowsTheProblemsOfOthers) {
 TEST(FlightLoop, ImagesShowWhatIsViewedAndAreRepeatedForThoseWhoCome) {
   Control control({"d1", "d2"}, {.paused = true});
   control.begin(moment(3));
-  Flown flown{.steps = 3, .wishes = {}};
+  Flown flown{.steps = 3, .input = {}};
   FlightParts parts = make_parts(flown);
   Album album;
   parts.images = images_into(album, control);

@@ -1,4 +1,4 @@
-#include "sim/policies/glide.h"
+#include "sim/policies/smooth_setpoint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,24 +13,25 @@ constexpr double kMaxAheadM = 3;  // how far the set-point may run ahead of the 
 constexpr double kThereM = 0.3;
 }  // namespace
 
-Glide::Glide(const Eigen::Vector3d& start, double yaw_rad) : goal_(start.head<2>()) {
+SmoothSetpoint::SmoothSetpoint(const Eigen::Vector3d& start, double yaw_rad)
+    : goal_(start.head<2>()) {
   setpoint_.position = start;
   setpoint_.yaw_rad = yaw_rad;
 }
 
-void Glide::go(const Vector2d& place, double speed_mps) {
+void SmoothSetpoint::go(const Vector2d& place, double speed_mps) {
   goal_ = place;
   speed_mps_ = speed_mps;
 }
 
-void Glide::stop() {
+void SmoothSetpoint::stop() {
   const double braking_m = velocity_.squaredNorm() / (2 * kGlideMps2);
   goal_ = place() + braking_m * velocity_.normalized();
 }
 
-bool Glide::arrived() const { return (goal_ - place()).norm() < kThereM; }
+bool SmoothSetpoint::arrived() const { return (goal_ - place()).norm() < kThereM; }
 
-const Setpoint& Glide::advance(const FlightState& state, double dt_s) {
+const Setpoint& SmoothSetpoint::advance(const FlightState& state, double dt_s) {
   const Vector2d offset = goal_ - place();
   const double distance_m = offset.norm();
   const bool too_far_ahead = (place() - state.position.head<2>()).norm() > kMaxAheadM;

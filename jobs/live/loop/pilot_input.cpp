@@ -1,4 +1,4 @@
-#include "jobs/live/loop/wishes.h"
+#include "jobs/live/loop/pilot_input.h"
 
 #include <algorithm>
 #include <array>
@@ -51,16 +51,16 @@ void merge_drone(const DroneCommand& given, sim::RemoteCommand& command) {
 
 }  // namespace
 
-void merge(const Commands& given, const std::vector<std::string>& ids, Wishes& wishes) {
+void merge(const Commands& given, const std::vector<std::string>& ids, PilotInput& input) {
   const auto number = [&](const std::string& id) {
     return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
   };
-  if (given.sequence) wishes.sequence = static_cast<std::uint32_t>(*given.sequence);
-  if (given.paused) wishes.paused = *given.paused;
-  if (given.factor) wishes.factor = *given.factor;
-  if (given.view) wishes.view = number(*given.view);
+  if (given.sequence) input.sequence = static_cast<std::uint32_t>(*given.sequence);
+  if (given.paused) input.paused = *given.paused;
+  if (given.factor) input.factor = *given.factor;
+  if (given.view) input.view = number(*given.view);
   for (const DroneCommand& drone : given.drones) {
-    merge_drone(drone, wishes.commands.at(number(drone.id)));
+    merge_drone(drone, input.commands.at(number(drone.id)));
   }
 }
 

@@ -9,9 +9,9 @@
 namespace throng::sim {
 
 /// The moving set-point of one drone.
-class Glide {
+class SmoothSetpoint {
  public:
-  Glide(const Eigen::Vector3d& start, double yaw_rad);
+  SmoothSetpoint(const Eigen::Vector3d& start, double yaw_rad);
 
   /// Sets the goal `place` (m), where the set-point will stop, and the max speed.
   void go(const Eigen::Vector2d& place, double speed_mps);
