@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "base/json/deprecation.h"
@@ -167,7 +168,9 @@ void check_names(const json& object, const std::string& path,
     place.problems.push_back(
         {place.source, place.below(field->path).pointer, "nothing", describe_expected(*field)});
   }
-  const std::vector<std::string_view> names(known.begin(), known.end());
+  std::vector<std::string_view> names;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(names),
+               [](const std::string& name) { return !name.starts_with('$'); });
   for (const auto& [name, value] : object.items()) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     if (std::find(deprecated.begin(), deprecated.end(), name) != deprecated.end()) continue;

@@ -101,7 +101,7 @@ class StudyReader {
       close_exits(given.closed_exits, pointer + "/close", one.scenario);
       one.alarm = world::find_alarm(one.scenario);
       if (given.alarm_s) one.alarm.at_s = given.alarm_s;
-      read_reference(given.reference, pointer, one);
+      read_reference(given.reference, one);
       if (!has_problem(pointer) && !has_problem("/horizons_s")) read_horizons(given, pointer, one);
       study_.cases.push_back(std::move(one));
     }
@@ -183,7 +183,7 @@ class StudyReader {
     }
   }
 
-  void read_reference(const ReferenceDocument& given, const std::string& pointer, Case& one) {
+  void read_reference(const ReferenceDocument& given, Case& one) {
     constexpr double kPerMeterSecond = 1.3;  // people; as in docs/metrics.md
     for (const world::Exit& exit : one.scenario.exits) {
       one.reference.capacity_per_s.push_back(kPerMeterSecond * exit.width_m());
@@ -192,8 +192,7 @@ class StudyReader {
     if (!given.capacity_per_s) return;
     const std::size_t exits = one.scenario.exits.size();
     if (given.capacity_per_s->size() != exits) {
-      reject(pointer + "/reference/capacity_per_s",
-             fmt::format("{} numbers", given.capacity_per_s->size()),
+      reject(given.capacity_pointer, fmt::format("{} numbers", given.capacity_per_s->size()),
              fmt::format("one number for each of the {} exits", exits));
       return;
     }

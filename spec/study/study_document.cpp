@@ -68,9 +68,15 @@ const FieldTable<ReferenceDocument>& reference_fields() {
     fields::Values rates =
         fields::raw({{"type", "array"}, {"items", fields::numbers(0, 1000).rules}});
     rates.expected = "one number for each exit";
-    fields.add("capacity_per_s", "Exit capacities", "people/s", std::move(rates),
-               at(&ReferenceDocument::capacity_per_s),
-               "Mean flow of each exit; default: 1.3 per meter of its width.");
+    auto& capacities = fields.add_read(
+        "capacity_per_s", std::move(rates),
+        [](ReferenceDocument& reference, const json& value, const FieldLocation& place) {
+          fields::set_value(value, reference.capacity_per_s);
+          reference.capacity_pointer = place.pointer;
+        },
+        "Mean flow of each exit; default: 1.3 per meter of its width.");
+    capacities.title = "Exit capacities";
+    capacities.measured_in("people/s");
     return fields;
   }();
   return table;

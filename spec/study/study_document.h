@@ -17,6 +17,7 @@ namespace throng::study {
 struct ReferenceDocument {
   std::optional<double> speed_mps;
   std::optional<std::vector<double>> capacity_per_s;  ///< of each exit
+  std::string capacity_pointer;                       ///< JSON pointer of capacity_per_s
 };
 
 struct CaseDocument {

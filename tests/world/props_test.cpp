@@ -69,7 +69,7 @@ TEST_F(PropsTest, PlantersCoverAsMuchGroundAsTheyAreLarge) {
 
 TEST_F(PropsTest, MistakesAreNamedByTheirPointer) {
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "statue", "position": [0, 0]}])"), "/props/0/kind");
-  EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin"}])"), "/props/0");
+  EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin"}])"), "/props/0/position");
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin", "position": [0, 0], "size": 1}])"),
             "/props/0/size");
   EXPECT_EQ(refused_at(R"(, "scatter": [{"kinds": [], "area": [[0, 0], [1, 0], [1, 1]],

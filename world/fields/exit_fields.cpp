@@ -87,6 +87,8 @@ Exit read_exit(const json& value, const geometry::Region& inside, const FieldLoc
   exit_fields().read_checked(value, exit, place);
   if (check_ends(exit.from, exit.to, kNarrowestExitM, value, place)) {
     check_outward(exit, value, inside, place);
+  } else {
+    exit.to = exit.from;  // nothing is in its way
   }
   if (!exit.open && std::isfinite(exit.closes_at_s)) {
     const char* field = value.contains("closes_at_s") ? "closes_at_s" : "shuts_s";

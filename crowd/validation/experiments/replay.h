@@ -6,6 +6,7 @@
 
 #include "crowd/validation/experiments/experiment.h"
 #include "crowd/validation/experiments/walks.h"
+#include "crowd/validation/scene.h"
 
 namespace throng::validation {
 

@@ -38,6 +38,20 @@ TEST(Polygon, DistanceIsZeroInsideAndEuclideanOutside) {
   EXPECT_DOUBLE_EQ(distance_to(kUnitSquare, {0.5, -2}), 2.0);
 }
 
+TEST(Polygon, PolygonsAndLinesTouchInsideAcrossAndAtOutlines) {
+  const auto expect_touch = [](const Corners& a, const Corners& b, bool expected) {
+    EXPECT_EQ(touch(a, b), expected);
+    EXPECT_EQ(touch(b, a), expected);
+  };
+  expect_touch(kUnitSquare, {{0.2, 0.2}, {0.4, 0.2}, {0.4, 0.4}}, true);        // inside
+  expect_touch(kUnitSquare, {{-1, 0.4}, {2, 0.4}, {2, 0.6}, {-1, 0.6}}, true);  // across
+  expect_touch(kUnitSquare, {{1, 0}, {2, 0}, {2, 1}, {1, 1}}, true);            // a common edge
+  expect_touch(kUnitSquare, {{0.5, -1}, {0.5, 2}}, true);                       // a line across
+  expect_touch(kUnitSquare, {{1, 0.5}, {2, 0.5}}, true);  // a line from an edge
+  expect_touch(kUnitSquare, {{1.1, 0.5}, {2, 0.5}}, false);
+  expect_touch(kEll, {{0.75, 0.75}, {0.9, 0.75}, {0.9, 0.9}}, false);  // in the notch
+}
+
 TEST(Polygon, TrianglesCoverThePolygonWithoutOverlap) {
   const Corners comb{{0, 0}, {7, 0}, {7, 5}, {6, 5}, {6, 1}, {4, 1},
                      {4, 4}, {3, 4}, {3, 1}, {1, 1}, {1, 6}, {0, 6}};

@@ -35,7 +35,7 @@ void visit(const json& rules, const std::string& place,
 
 TEST(PublishedSchemas, HaveTitles) {
   for (const std::string_view name : schema_names()) {
-    EXPECT_EQ(parsed(name)["title"], "throng " + std::string(name));
+    EXPECT_NE(parsed(name).value("title", ""), "") << name;
   }
 }
 

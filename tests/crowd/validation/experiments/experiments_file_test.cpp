@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/schemas/json_schema.h"
 #include "crowd/validation/experiments/experiment.h"
+#include "spec/documents/published_schemas.h"
 #include "tests/crowd/validation/experiments/recordings.h"
 #include "tests/world/temporary_folder.h"
 
@@ -191,6 +193,24 @@ TEST_F(ExperimentsFile, NamesWrongDocuments) {
                   "no other experiment");
   EXPECT_THROW(parse_experiments("{", folder_.path()), InputError);
   EXPECT_THROW(parse_experiments("", folder_.path()), InputError);
+}
+
+TEST_F(ExperimentsFile, HasASchemaForEditors) {
+  const schemas::JsonSchema schema(json::parse(jobs::published_schema("experiments")));
+  const auto problems = [&](const json& experiment) {
+    return schema.problems({{"experiments", {experiment}}}, "").size();
+  };
+  for (json sound : {corridor_json(), loop_json(), single_file_json()}) {
+    EXPECT_EQ(problems(sound), 0U) << sound;
+    sound.erase("free_speed_mps");
+    EXPECT_EQ(problems(sound), 0U) << sound;
+    sound["free_speed_mps"] = {{"mean", 1}};
+    EXPECT_EQ(problems(sound), 1U) << "no stddev";
+  }
+  json without_goals = corridor_json();
+  without_goals.erase("goals");
+  EXPECT_GT(problems(without_goals), 0U);
+  EXPECT_GT(problems({{"name", "a"}}), 0U) << "of no kind";
 }
 
 TEST_F(ExperimentsFile, LetsGoalsAndLinesTouchTheGround) {

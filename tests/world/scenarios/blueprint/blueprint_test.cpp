@@ -309,8 +309,10 @@ TEST_F(Blueprint, FaultsOfABoxAreAtTheBox) {
   blueprint["buildings"].push_back({{"id", "flat"}, {"box", {1, 1, 2}}, {"height_m", 3}});
   EXPECT_EQ(problems_of_blueprint(blueprint).at(0).where, "/buildings/6/box");
   blueprint["buildings"].back().erase("box");
-  EXPECT_EQ(problems_of_blueprint(blueprint).at(0).text(),
-            "mine.blueprint.json: /buildings/6: missing required field \"footprint\" or \"box\"");
+  EXPECT_EQ(
+      problems_of_blueprint(blueprint).at(0).text(),
+      "mine.blueprint.json: /buildings/6/footprint: found nothing, expected an array of at least "
+      "3, or \"box\": [x0, y0, x1, y1]");
 }
 
 TEST_F(Blueprint, FaultsAreOfTheFileThatHoldsThem) {
@@ -355,7 +357,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Mistake{"too_many", "/people/groups/0/count", 20000, "/people/groups/0/count",
                               "at most"},
                       Mistake{"no_such_doing", "/people/groups/0/doing", "fly",
-                              "/people/groups/0/doing", "stroll, wait"},
+                              "/people/groups/0/doing", "\"stroll\", \"wait\""},
                       Mistake{"strollers_face_the_way", "/people/groups/0/facing", "random",
                               "/people/groups/0/facing", "wait"},
                       Mistake{"no_such_facing", "/people/lines/0/facing", "up",
