@@ -27,7 +27,7 @@ def limits(path):
 
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
-    names = subprocess.check_output(["git", "-C", root, "ls-files", "*.cpp"], text=True).split()
+    names = subprocess.check_output(["git", "-C", root, "ls-files", "*.cpp"], encoding="utf-8").split()
     files = collections.defaultdict(set)
     for name in names:
         if name.startswith(("tests/", "bench/")) or not (root / name).exists():

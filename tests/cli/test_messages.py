@@ -142,7 +142,7 @@ class Messages(unittest.TestCase):
     def test_a_missing_field_is_named(self):
         study = self.folder / "my.study.json"
         study.write_text("{}")
-        self.refused('missing required field "cases"', "study", study, "-o", self.folder / "out")
+        self.refused("/cases: found nothing, expected an array of at least 1", "study", study, "-o", self.folder / "out")
 
     def test_an_unknown_scenario_is_named_with_the_nearest_one(self):
         self.refused(
@@ -231,7 +231,7 @@ class Messages(unittest.TestCase):
         self.refused(
             "found a blueprint, expected a job; a blueprint is for `throng scenario check`", "run", place, "-o", "x"
         )
-        self.refused("missing required field", "scenario", "plan", place, "-o", self.folder / "plan.svg")
+        self.refused("/ground: found nothing", "scenario", "plan", place, "-o", self.folder / "plan.svg")
         self.refused("found a job, expected a study; a job is for `throng run`", "study", self.job(), "-o", "x")
         self.refused("found a job, expected a blueprint", "scenario", "make", self.job())
         study = self.folder / "s.json"

@@ -17,7 +17,7 @@ class CheckLimits(unittest.TestCase):
             for name, row in rows.items():
                 (pathlib.Path(folder) / f"{name}.cpp").write_text(f"void f() {{\n  {row}\n}}\n", encoding="utf-8")
             subprocess.run(["git", "-C", folder, "add", "."], check=True)
-            return subprocess.run([sys.executable, CHECK, folder], capture_output=True, text=True, check=False)
+            return subprocess.run([sys.executable, CHECK, folder], capture_output=True, encoding="utf-8", check=False)
 
     def test_a_range_in_two_files_is_refused(self):
         result = self.checked(
