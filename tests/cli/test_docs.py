@@ -152,7 +152,7 @@ class Docs(unittest.TestCase):
     def test_images_of_a_set_are_of_many_runs(self):
         """Those of one run show the same place and, where people stand, the same people."""
         page = (ROOT / "docs" / "recipes.md").read_text()
-        lists = re.findall(r"^- (?:Detectors|Light and weather|Labels): (.*(?:\n  .*)*)$", page, re.M)
+        lists = re.findall(r"^- (?:Detectors|Light and weather|Labels):(.*(?:\n  .*)*)$", page, re.M)
         names = {name for line in lists for name, _ in re.findall(r"\[([^\]]+)\]\((#[^)]+)\)", line)}
         self.assertGreaterEqual(len(names), 14)
         sequences = {"Tracking", "Optical flow and all ground truth per pixel"}
