@@ -79,7 +79,7 @@ test("a mistake is shown with its pointer, and mended", async () => {
   assert.equal(await scenario.getAttribute("aria-invalid"), "false");
   await openFile({ not: "a study" });
   await page
-    .getByText(/missing|required/)
+    .getByText(/unknown field "not"/)
     .first()
     .waitFor();
   await openFile(kStudy);
