@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/graphics/drawing/drawing.h"
+#include "camera/calibration/board.h"
 #include "camera/calibration/request.h"
 #include "camera/calibration/residual_plot.h"
 #include "camera/calibration/result.h"

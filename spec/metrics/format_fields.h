@@ -20,6 +20,7 @@ void add_rate_and_unit(fields::FieldTable<Object>& table, Access format) {
       "Frames per second, if the file does not contain the rate or is wrong; with a column of "
       "times, the rate to interpolate to.");
   std::vector<std::string> words;
+  words.reserve(std::size(kLengthUnits));
   for (const LengthUnit& unit : kLengthUnits) words.emplace_back(unit.word);
   table.add(
       "unit", "Unit", "", fields::one_of_words(words),

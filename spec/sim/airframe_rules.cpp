@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>

@@ -142,7 +142,9 @@ class Messages(unittest.TestCase):
     def test_a_missing_field_is_named(self):
         study = self.folder / "my.study.json"
         study.write_text("{}")
-        self.refused("/cases: found nothing, expected an array of at least 1", "study", study, "-o", self.folder / "out")
+        self.refused(
+            "/cases: found nothing, expected an array of at least 1", "study", study, "-o", self.folder / "out"
+        )
 
     def test_an_unknown_scenario_is_named_with_the_nearest_one(self):
         self.refused(

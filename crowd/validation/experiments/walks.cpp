@@ -8,6 +8,7 @@
 
 #include "base/compute/quantile.h"
 #include "base/geometry/polygon.h"
+#include "crowd/validation/scene.h"
 
 namespace throng::validation {
 

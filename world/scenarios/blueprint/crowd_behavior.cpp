@@ -12,6 +12,7 @@
 #include "crowd/description/builder.h"
 #include "world/scenarios/blueprint/blocked.h"
 #include "world/scenarios/blueprint/crowd_scene.h"
+#include "world/scenarios/blueprint/people.h"
 
 namespace throng::scenarios {
 
