@@ -74,9 +74,9 @@ Values names() {
 }
 
 /// Rejects the value at a path in an object or a list.
-void reject(const json& value, const std::string& path, std::string expected,
+void reject(const json& value, const std::string& path, const std::string& expected,
             const FieldLocation& place) {
-  place.below(path).reject(describe(value.at(fields::pointer_below(path))), std::move(expected));
+  place.below(path).reject(throng::describe(value.at(fields::pointer_below(path))), expected);
 }
 
 // Each read() stores a value that the rules of its field permit, and adds a problem where it breaks
@@ -95,14 +95,15 @@ void read(const json& value, Value& object, const FieldLocation& /*place*/) {
 void read(const json& value, Corners& polygon, const FieldLocation& place) {
   for (const json& corner : value) fields::set_value(corner, polygon.emplace_back());
   if (geometry::is_simple(polygon)) return;
-  place.reject(describe(value), "corners in order, whose edges have a length and do not cross");
+  place.reject(throng::describe(value),
+               "corners in order, whose edges have a length and do not cross");
 }
 
 void read(const json& value, CountingLine& line, const FieldLocation& place) {
   fields::set_value(value[0], line.from);
   fields::set_value(value[1], line.to);
   if (line.length_m() >= kShortestM) return;
-  place.reject(describe(value), fmt::format("a line of {} m or more", kShortestM));
+  place.reject(throng::describe(value), fmt::format("a line of {} m or more", kShortestM));
 }
 
 void read(const json& value, TimeRange& period, const FieldLocation& place) {
@@ -121,7 +122,7 @@ void read(const json& value, std::string& name, const FieldLocation& place) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
   if (!sound || given.empty() || given.size() > kMaxNameLength) {
-    return place.reject(describe(value), names().expected);
+    return place.reject(throng::describe(value), names().expected);
   }
   name = given;
 }
@@ -138,7 +139,7 @@ void read(const json& value, fs::path& file, const FieldLocation& place) {
   }
   std::sort(there.begin(), there.end());
   const std::vector<std::string_view> known(there.begin(), there.end());
-  place.reject(describe(value),
+  place.reject(throng::describe(value),
                fmt::format("a file in {}{}", folder.string(), did_you_mean(name, known)));
 }
 
@@ -146,7 +147,7 @@ void read(const json& value, metrics::TrajectoryColumns& columns, const FieldLoc
   try {
     columns = metrics::columns_in_order(value);
   } catch (const InputError& error) {
-    place.reject(describe(value), error.problems().front().expected);
+    place.reject(throng::describe(value), error.problems().front().expected);
   }
 }
 
