@@ -204,16 +204,17 @@ void FieldLocation::reject(std::string found, std::string expected) const {
 }
 
 bool FieldLocation::has_problem(std::string_view path) const {
-  const std::string whole = fmt::format("{}/{}", pointer, path);
+  const std::string whole = path.empty() ? pointer : fmt::format("{}/{}", pointer, path);
   return std::any_of(problems.begin(), problems.end(), [&](const Problem& problem) {
     return problem.where == whole || problem.where.starts_with(whole + "/");
   });
 }
 
-bool check_value(const json& value, const FieldRules& field, const FieldLocation& place) {
-  const ordered_json& rules = field.values.rules;
-  if (!keeps_rules(value, rules)) {
-    place.reject(describe(value), describe_expected(field));
+bool check_value(const json& value, const Values& values, const FieldLocation& place) {
+  const ordered_json& rules = values.rules;
+  if (!keeps_rules(value, rules) ||
+      (values.has_pattern && !values.has_pattern(value.get_ref<const std::string&>()))) {
+    place.reject(describe(value), values.expected.empty() ? expectation(rules) : values.expected);
     return false;
   }
   return !value.is_array() || check_elements(value, rules, place);

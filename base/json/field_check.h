@@ -51,9 +51,9 @@ struct FieldLocation {
   FieldLocation below(std::size_t index) const { return below(std::to_string(index)); }
   /// Adds a problem with the value at this position.
   void reject(std::string found, std::string expected) const;
-  /// Returns whether there is a problem with the value at `path` or below it: rules that span
-  /// several fields hold only for valid ones.
-  bool has_problem(std::string_view path) const;
+  /// Returns whether there is a problem with the value at `path`, or with that at this position, or
+  /// below it: rules that span several fields hold only for valid ones.
+  bool has_problem(std::string_view path = "") const;
   /// Warns that the document uses the deprecated name of a field. If it also has the new name, adds
   /// a problem instead and returns false.
   bool allows_deprecated(const FieldRules& field, bool is_also_given) const;
@@ -62,10 +62,10 @@ struct FieldLocation {
 /// Describes the permitted values of a schema, e.g. "a number from 0 to 90".
 std::string expectation(const nlohmann::json& rules);
 
-/// Checks a value, and the elements of a list, against the type, words, range and length of a
-/// field; adds problems and returns false if it breaks them. Patterns and elements with fields of
-/// their own are checked by the field's setter.
-bool check_value(const nlohmann::json& value, const FieldRules& field, const FieldLocation& place);
+/// Checks a value, and the elements of a list, against the type, words, range, length and
+/// has_pattern() of permitted values; adds problems and returns false if it breaks them. Other
+/// patterns, and elements with fields of their own, are checked by a field's setter.
+bool check_value(const nlohmann::json& value, const Values& values, const FieldLocation& place);
 
 /// Returns whether a value is an object; adds a problem if not, and problems for unknown names
 /// (with a suggestion), missing required fields and groups that are not objects.

@@ -52,8 +52,27 @@ struct Field : FieldRules {
     deprecated_name = std::move(name);
     return *this;
   }
+  Field& titled(std::string name) {
+    title = std::move(name);
+    return *this;
+  }
   Field& measured_in(std::string name) {
     unit = std::move(name);
+    return *this;
+  }
+  /// Sets the text of permitted values for messages.
+  Field& expecting(std::string text) {
+    values.expected = std::move(text);
+    return *this;
+  }
+  /// Adds a check of what was read: check(object, value, location).
+  template <typename Check>
+  Field& checked(Check check) {
+    set = [read = std::move(set), check](Object& object, const nlohmann::json& value,
+                                         const FieldLocation& place) {
+      read(object, value, place);
+      check(object, value, place);
+    };
     return *this;
   }
   /// Marks an object without default; the help text says what happens if it is missing.
@@ -206,6 +225,18 @@ class FieldTable {
         std::move(help));
   }
 
+  /// Adds a list of at least `min_items` objects with fields of their own; it is not printed.
+  template <typename Part, typename Access>
+  Field<Object>& add_list(std::string path, const FieldTable<Part>& part, Access access,
+                          std::string help, int min_items = 0) {
+    return add_read(
+        std::move(path), open_lists(min_items, object_with(part.schema()).rules),
+        [&part, access](Object& object, const nlohmann::json& list, const FieldLocation& place) {
+          access(object) = part.read_list(list, place);
+        },
+        std::move(help));
+  }
+
   /// Adds the fields of a part of the object, with the prefix `path`; "": without a prefix.
   template <typename Part, typename Access>
   void add_all(const std::string& path, const FieldTable<Part>& part, Access access) {
@@ -247,8 +278,17 @@ class FieldTable {
     for_each_given(
         value, place,
         [&](const Field<Object>& field, const nlohmann::json& given, const FieldLocation& at) {
-          if (check_value(given, field, at)) field.set(object, given, at);
+          if (check_value(given, field.values, at)) field.set(object, given, at);
         });
+  }
+
+  /// Reads the elements of a list as read_checked() does.
+  std::vector<Object> read_list(const nlohmann::json& list, const FieldLocation& place) const {
+    std::vector<Object> objects(list.size());
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      read_checked(list[i], objects[i], place.below(i));
+    }
+    return objects;
   }
 
   /// Returns the object as JSON.

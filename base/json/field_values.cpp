@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/json/json_integer.h"
@@ -13,8 +14,6 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 namespace {
-
-constexpr const char* kIdentifier = "^[A-Za-z0-9_-]{1,32}$";
 
 /// A number without a point where it is whole.
 ordered_json plain(double number) {
@@ -67,7 +66,28 @@ Values texts(int min_length, int max_length) {
       {{"type", "string"}, {"minLength", min_length}, {"maxLength", max_length}, {kOneLine, true}}};
 }
 
-Values identifiers() { return texts_like(kIdentifier, "1 to 32 letters, digits, '_' or '-'"); }
+Values identifiers() {
+  constexpr std::size_t kMaxLength = 32;
+  Values values = names(kMaxLength);
+  values.expected = fmt::format("1 to {} letters, digits, '_' or '-'", kMaxLength);
+  return values;
+}
+
+Values names(std::optional<std::size_t> max_length) {
+  Values values = texts_like(
+      fmt::format("^[A-Za-z0-9_-]{}$", max_length ? fmt::format("{{1,{}}}", *max_length) : "+"),
+      fmt::format("a name of letters, digits, '_' and '-'{}",
+                  max_length ? fmt::format(", of at most {} characters", *max_length) : ""));
+  values.has_pattern = [max_length](std::string_view text) {
+    const auto is_allowed = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+             c == '_' || c == '-';
+    };
+    return !text.empty() && (!max_length || text.size() <= *max_length) &&
+           std::all_of(text.begin(), text.end(), is_allowed);
+  };
+  return values;
+}
 
 Values texts_like(const std::string& pattern, const std::string& expected) {
   return {{{"type", "string"}, {"pattern", pattern}}, expected};
@@ -80,10 +100,24 @@ Values lists(int min_items, int max_items, ordered_json items) {
            {"items", std::move(items)}}};
 }
 
+Values open_lists(int min_items, ordered_json items) {
+  ordered_json rules = {{"type", "array"}};
+  if (min_items > 0) rules["minItems"] = min_items;
+  rules["items"] = std::move(items);
+  return {std::move(rules),
+          min_items > 0 ? fmt::format("an array of at least {}", min_items) : "an array"};
+}
+
 Values object_with(const ordered_json& fields) {
   ordered_json rules = {{"type", "object"}};
   rules.update(fields);
   return {std::move(rules)};
+}
+
+ordered_json form(std::string help, const ordered_json& fields) {
+  ordered_json rules = {{"description", std::move(help)}};
+  rules.update(object_with(fields).rules);
+  return rules;
 }
 
 Values raw(ordered_json rules, std::string expected) {

@@ -34,6 +34,8 @@ struct Values {
   nlohmann::ordered_json rules;  ///< keywords of JSON Schema, "type" first
   std::string expected = {};     ///< for messages, if the rules do not express it (x-expected)
   std::optional<Quantity> quantity = std::nullopt;  ///< set if the field may be sampled
+  /// Whether a text has the "pattern" of the rules; nothing: the field's setter checks it.
+  std::function<bool(std::string_view)> has_pattern = {};
 };
 
 Values integers(std::int64_t low, std::int64_t high);
@@ -45,12 +47,18 @@ Values booleans();
 Values texts(int min_length, int max_length);
 /// Texts of 1 to 32 letters, digits, '_' and '-'.
 Values identifiers();
+/// Names of letters, digits, '_' and '-', of any length or at most `max_length` characters.
+Values names(std::optional<std::size_t> max_length = std::nullopt);
 /// Texts that match a regular expression (JSON Schema "pattern").
 Values texts_like(const std::string& pattern, const std::string& expected);
 /// Lists of `min_items` to `max_items` items.
 Values lists(int min_items, int max_items, nlohmann::ordered_json items);
+/// Lists of at least `min_items` items.
+Values open_lists(int min_items, nlohmann::ordered_json items);
 /// Objects with the schema() of a table.
 Values object_with(const nlohmann::ordered_json& fields);
+/// The rules of such objects as one of several forms of a value, which `help` describes.
+nlohmann::ordered_json form(std::string help, const nlohmann::ordered_json& fields);
 /// Other rules of JSON Schema.
 Values raw(nlohmann::ordered_json rules, std::string expected = "");
 

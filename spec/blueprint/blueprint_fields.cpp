@@ -90,7 +90,9 @@ const FieldTable<PropRow>& row_fields() {
   return fields;
 }
 
-fields::Values row_lists() { return world::object_lists(row_fields().schema()); }
+fields::Values row_lists() {
+  return fields::open_lists(0, fields::object_with(row_fields().schema()).rules);
+}
 
 std::vector<FieldRules> blueprint_rules() {
   std::vector<FieldRules> rules;

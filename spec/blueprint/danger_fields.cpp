@@ -22,7 +22,7 @@ constexpr double kGasHurtsAfterS = 60;  // an assumption: real gases take a brea
 
 /// A disaster as the blueprint has it.
 struct GivenDanger {
-  world::Disaster seen = world::begin_disaster();
+  world::Disaster seen;
   std::optional<double> noticed_m;
   std::optional<double> notice_growth_mps;
   std::optional<double> blocked_m;
@@ -77,10 +77,8 @@ Danger usual_danger(const world::Disaster& seen) {
   return {seen, 15, 1.5, seen.radius_m, false, 0};
 }
 
-Danger read_danger(const json& value, int agent, const FieldLocation& place) {
-  GivenDanger given;
-  danger_fields().read_checked(value, given, place);
-  given.seen.agent = agent;
+/// The danger that a blueprint's item gives.
+Danger complete_danger(const GivenDanger& given, const json& value, const FieldLocation& place) {
   Danger danger = usual_danger(given.seen);
   danger.noticed_m = given.noticed_m.value_or(danger.noticed_m);
   danger.notice_growth_mps = given.notice_growth_mps.value_or(danger.notice_growth_mps);
@@ -100,17 +98,19 @@ Danger read_danger(const json& value, int agent, const FieldLocation& place) {
 
 }  // namespace
 
-fields::Values danger_lists() { return world::object_lists(danger_fields().schema()); }
+fields::Values danger_lists() {
+  return fields::open_lists(0, fields::object_with(danger_fields().schema()).rules);
+}
 
 std::vector<Danger> read_dangers(const json& list, const FieldLocation& place) {
-  if (!list.is_array()) {
-    place.reject(describe(list), danger_lists().expected);
-    return {};
+  std::vector<Danger> dangers;
+  if (!fields::check_value(list, danger_lists(), place)) return dangers;
+  const std::vector<GivenDanger> given = danger_fields().read_list(list, place);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    dangers.push_back(complete_danger(given[i], list[i], place.below(i)));
+    dangers.back().seen.agent = static_cast<int>(i);
   }
-  return world::read_list(list, place,
-                          [](const json& value, const FieldLocation& item, std::size_t i) {
-                            return read_danger(value, static_cast<int>(i), item);
-                          });
+  return dangers;
 }
 
 }  // namespace throng::scenarios

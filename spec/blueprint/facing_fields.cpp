@@ -50,18 +50,13 @@ const FieldTable<Facing>& direction_fields() {
   return fields;
 }
 
-ordered_json form(const char* help, const FieldTable<Facing>& table) {
-  ordered_json rules = {{"description", help}};
-  rules.update(fields::object_with(table.schema()).rules);
-  return rules;
-}
-
 }  // namespace
 
 fields::Values facing_values() {
-  ordered_json forms = ordered_json::array({fields::one_of_words(std::array{kRandom}).rules,
-                                            form("They look at a point.", towards_fields()),
-                                            form("They look in a direction.", direction_fields())});
+  ordered_json forms =
+      ordered_json::array({fields::one_of_words(std::array{kRandom}).rules,
+                           fields::form("They look at a point.", towards_fields().schema()),
+                           fields::form("They look in a direction.", direction_fields().schema())});
   return {{{"type", {"string", "object"}}, {"anyOf", std::move(forms)}}, kExpectedFacing};
 }
 

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "base/json/json_describe.h"
-#include "base/json/json_integer.h"
 #include "spec/blueprint/facing_fields.h"
 #include "world/fields/document_values.h"
 
@@ -19,7 +18,6 @@ using fields::FieldLocation;
 using fields::FieldTable;
 using nlohmann::json;
 using world::points;
-using world::read_list;
 
 namespace {
 
@@ -79,8 +77,7 @@ const FieldTable<Group>& group_fields() {
         .add_read(
             "area", world::polygons(),
             [](Group& group, const json& value, const FieldLocation& place) {
-              group.area = world::read_points(value);
-              world::check_simple(group.area, place);
+              group.area = world::read_polygon(value, place);
             },
             "Corners in order; the edges must not cross.")
         .measured_in("m")
@@ -94,14 +91,13 @@ const FieldTable<Group>& group_fields() {
   return fields;
 }
 
-Group read_group(const json& value, const FieldLocation& place) {
-  Group group;
-  group_fields().read_checked(value, group, place);
-  if (world::has_valid(value, "doing", place) && group.doing != Doing::wait &&
-      value.contains("facing")) {
-    place.below("facing").reject(describe(value["facing"]), "a group that is doing \"wait\"");
+void check_groups(const People& people, const json& list, const FieldLocation& place) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const FieldLocation item = place.below(i);
+    if (!world::has_valid(list[i], "doing", item) || !list[i].contains("facing")) continue;
+    if (people.groups[i].doing == Doing::wait) continue;
+    item.below("facing").reject(describe(list[i]["facing"]), "a group that is doing \"wait\"");
   }
-  return group;
 }
 
 const FieldTable<Line>& line_fields() {
@@ -124,7 +120,7 @@ fields::Values exit_names() {
 fields::Values arrivals() {
   nlohmann::ordered_json pair = fields::lists(2, 2, {{"type", "number"}, {"minimum", 0}}).rules;
   pair["x-expected"] = "[seconds, people]";
-  return world::open_lists(0, std::move(pair));
+  return fields::open_lists(0, std::move(pair));
 }
 
 void set_arrivals(Source& source, const json& list, const FieldLocation& place) {
@@ -132,13 +128,8 @@ void set_arrivals(Source& source, const json& list, const FieldLocation& place) 
     const json& time_s = list[i][0];
     const json& people = list[i][1];
     const FieldLocation row = place.below(i);
-    if (time_s.get<double>() > kMaxDurationS) {
-      row.below(0).reject(describe(time_s), fmt::format("a number from 0 to {}", kMaxDurationS));
-    }
-    if (!is_integer(people) || people.get<double>() < 1 || people.get<double>() > kMaxPeople) {
-      row.below(1).reject(describe(people), fmt::format("an integer from 1 to {}", kMaxPeople));
-      continue;
-    }
+    fields::check_value(time_s, fields::numbers(0, kMaxDurationS), row.below(0));
+    if (!fields::check_value(people, fields::integers(1, kMaxPeople), row.below(1))) continue;
     source.table.emplace_back(time_s.get<double>(), static_cast<int>(people.get<double>()));
   }
 }
@@ -170,19 +161,21 @@ const FieldTable<Source>& source_fields() {
   return fields;
 }
 
-Source read_source(const json& value, const FieldLocation& place) {
-  Source source;
-  source_fields().read_checked(value, source, place);
-  if (!value.is_object()) return source;
-  if (!value.contains("exit") && (!value.contains("from") || !value.contains("to"))) {
+void check_source(const json& source, const FieldLocation& place) {
+  if (!source.contains("exit") && (!source.contains("from") || !source.contains("to"))) {
     place.reject("no position", "\"exit\", or \"from\" and \"to\"");
   }
-  if (value.contains("table") == value.contains("per_minute")) {
+  if (source.contains("table") == source.contains("per_minute")) {
     place.reject(fmt::format("{} of \"per_minute\" and \"table\"",
-                             value.contains("table") ? "both" : "none"),
+                             source.contains("table") ? "both" : "none"),
                  "one of them");
   }
-  return source;
+}
+
+void check_sources(const People& /*people*/, const json& list, const FieldLocation& place) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].is_object()) check_source(list[i], place.below(i));
+  }
 }
 
 fields::Values evacuation_speeds() {
@@ -205,39 +198,20 @@ void set_evacuation_speed(People& people, const json& value, const FieldLocation
 
 /// Adds the lists of people.
 void add_lists(FieldTable<People>& table) {
+  table
+      .add_list("groups", group_fields(), at(&People::groups),
+                "People at the start, placed at random on the free ground of an area, differently "
+                "for every seed of a run. They overlap nobody placed before; overlapping groups "
+                "make a crowd denser in the middle.")
+      .checked(check_groups);
+  table.add_list("lines", line_fields(), at(&People::lines),
+                 "People who stand in line. They look to its head unless they have a facing.");
+  table
+      .add_list("sources", source_fields(), at(&People::sources),
+                "People who come in by an exit, or along a segment, until a hazard reaches it.")
+      .checked(check_sources);
   table.add_read(
-      "groups", world::object_lists(group_fields().schema()),
-      [](People& people, const json& list, const FieldLocation& place) {
-        people.groups =
-            read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
-              return read_group(value, item);
-            });
-      },
-      "People at the start, placed at random on the free ground of an area, differently for every "
-      "seed of a run. They overlap nobody placed before; overlapping groups make a crowd denser "
-      "in the middle.");
-  table.add_read(
-      "lines", world::object_lists(line_fields().schema()),
-      [](People& people, const json& list, const FieldLocation& place) {
-        people.lines =
-            read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
-              Line line;
-              line_fields().read_checked(value, line, item);
-              return line;
-            });
-      },
-      "People who stand in line. They look to its head unless they have a facing.");
-  table.add_read(
-      "sources", world::object_lists(source_fields().schema()),
-      [](People& people, const json& list, const FieldLocation& place) {
-        people.sources =
-            read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
-              return read_source(value, item);
-            });
-      },
-      "People who come in by an exit, or along a segment, until a hazard reaches it.");
-  table.add_read(
-      "spots", world::open_lists(0, points().rules),
+      "spots", fields::open_lists(0, points().rules),
       [](People& people, const json& list, const FieldLocation& /*place*/) {
         people.spots = world::read_points(list);
       },

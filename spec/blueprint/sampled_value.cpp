@@ -1,7 +1,5 @@
 #include "spec/blueprint/sampled_value.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -29,19 +27,13 @@ constexpr double kDeviations = 3;
 
 double to_three_digits(double value) { return std::stod(significant_text(value, 3)); }
 
-/// Adds a problem and returns false if a number is out of range.
-bool check_number(const json& value, double low, double high, const FieldLocation& place) {
-  const auto number = value.get<double>();
-  if (number >= low && number <= high) return true;
-  place.reject(describe(value), fmt::format("a number from {} to {}", low, high));
-  return false;
-}
-
 /// The two numbers of a distribution.
 bool read_pair(const json& pair, const SampledLimits& limits, double max_second,
                const FieldLocation& place, SampledValue& sampled) {
-  const bool is_first_valid = check_number(pair[0], limits.low, limits.high, place.below(0));
-  if (!check_number(pair[1], 0, max_second, place.below(1)) || !is_first_valid) return false;
+  const fields::Values first = fields::numbers(limits.low, limits.high);
+  const bool is_first_valid = fields::check_value(pair[0], first, place.below(0));
+  const fields::Values second = fields::numbers(0, max_second);
+  if (!fields::check_value(pair[1], second, place.below(1)) || !is_first_valid) return false;
   sampled.first = pair[0].get<double>();
   sampled.second = pair[1].get<double>();
   return true;
@@ -124,17 +116,11 @@ FieldTable<SampledValue> fields_for(const json& value, const SampledLimits& limi
   return value.contains("normal") ? normal_fields(limits) : lognormal_fields(limits);
 }
 
-ordered_json form(const char* help, const FieldTable<SampledValue>& table) {
-  ordered_json rules = {{"description", help}};
-  rules.update(fields::object_with(table.schema()).rules);
-  return rules;
-}
-
 /// A plain number.
 SampledValue read_number(const json& value, const SampledLimits& limits,
                          const FieldLocation& place) {
   SampledValue sampled;
-  if (!check_number(value, limits.low, limits.high, place)) return sampled;
+  if (!fields::check_value(value, fields::numbers(limits.low, limits.high), place)) return sampled;
   sampled.first = value.get<double>();
   if (limits.relative_stddev > 0) {
     sampled.kind = SampledValue::Kind::normal;
@@ -178,11 +164,11 @@ std::vector<Attribute> SampledValue::attributes() const {
 }
 
 fields::Values sampled_values(const SampledLimits& limits) {
-  ordered_json forms =
-      ordered_json::array({fields::numbers(limits.low, limits.high).rules,
-                           form("A uniform distribution.", uniform_fields(limits)),
-                           form("A normal distribution.", normal_fields(limits)),
-                           form("A lognormal distribution.", lognormal_fields(limits))});
+  ordered_json forms = ordered_json::array(
+      {fields::numbers(limits.low, limits.high).rules,
+       fields::form("A uniform distribution.", uniform_fields(limits).schema()),
+       fields::form("A normal distribution.", normal_fields(limits).schema()),
+       fields::form("A lognormal distribution.", lognormal_fields(limits).schema())});
   return {{{"type", {"number", "object"}}, {"anyOf", std::move(forms)}}, kExpected};
 }
 

@@ -30,28 +30,22 @@ struct ReadCamera {
   std::map<std::string, double> parameters;
 };
 
-/// Adds a number that is read and never printed.
-void add_number(FieldTable<ReadCamera>& table, const std::string& name, const char* unit,
-                double low, double high, FieldTable<ReadCamera>::Set set, const char* help) {
-  table.add(
-      name, "", unit, fields::numbers(low, high), [](const ReadCamera&) { return json(); },
-      std::move(set), help);
-}
+constexpr double kMaxParameter = 1e7;
 
 void add_parameter(FieldTable<ReadCamera>& table, const std::string& name, const char* unit,
                    double low, const char* help) {
-  constexpr double kMaxParameter = 1e7;
-  add_number(
-      table, name, unit, low, kMaxParameter,
-      [name](ReadCamera& read, const json& value, const FieldLocation&) {
-        read.parameters[name] = value.get<double>();
-      },
-      help);
+  table
+      .add_read(
+          name, fields::numbers(low, kMaxParameter),
+          [name](ReadCamera& read, const json& value, const FieldLocation&) {
+            read.parameters[name] = value.get<double>();
+          },
+          help)
+      .measured_in(unit);
 }
 
 FieldTable<ReadCamera> make_fields() {
   constexpr double kMaxSide = 20000;
-  constexpr double kMaxParameter = 1e7;
   constexpr double kMinFocal = 1e-3;
   FieldTable<ReadCamera> table;
   table.add_schema_name();
@@ -66,8 +60,10 @@ FieldTable<ReadCamera> make_fields() {
       read.size.*member = static_cast<int>(value.get<double>());
     };
   };
-  add_number(table, "width", "px", 1, kMaxSide, side(&ImageSize::width), "Width of the images.");
-  add_number(table, "height", "px", 1, kMaxSide, side(&ImageSize::height), "Height of the images.");
+  const fields::Values sides = fields::numbers(1, kMaxSide);
+  table.add_read("width", sides, side(&ImageSize::width), "Width of the images.").measured_in("px");
+  table.add_read("height", sides, side(&ImageSize::height), "Height of the images.")
+      .measured_in("px");
   std::vector<std::string> lenses;
   lenses.reserve(kLenses.size());
   for (const Lens lens : kLenses) lenses.emplace_back(to_string(lens));

@@ -40,7 +40,7 @@ constexpr int kMaxCorners = 1000;
 constexpr int kMaxObstacles = 1000;
 constexpr int kMaxGoals = 20;
 constexpr int kMaxPoints = 100;
-constexpr int kMaxNameLength = 100;
+constexpr std::size_t kMaxNameLength = 100;
 constexpr int kMaxColumnsLength = 1000;
 constexpr int kMaxPeople = 10'000;
 constexpr double kMaxCoordinateM = 500;
@@ -65,13 +65,6 @@ Values pairs(const Values& items, std::string expected) {
 Values coordinates() { return numbers(-kMaxCoordinateM, kMaxCoordinateM); }
 Values places() { return pairs(coordinates(), "[x, y]"); }
 Values polygons() { return lists(3, kMaxCorners, places().rules); }
-
-Values names() {
-  return fields::texts_like(
-      fmt::format("^[A-Za-z0-9_-]{{1,{}}}$", kMaxNameLength),
-      fmt::format("a name of letters, digits, '_' and '-', of at most {} characters",
-                  kMaxNameLength));
-}
 
 /// Rejects the value at a path in an object or a list.
 void reject(const json& value, const std::string& path, const std::string& expected,
@@ -114,17 +107,6 @@ void read(const json& value, TimeRange& period, const FieldLocation& place) {
 
 void read(const json& value, DensitySpeed& pair, const FieldLocation& /*place*/) {
   pair = {value[0], value[1]};
-}
-
-void read(const json& value, std::string& name, const FieldLocation& place) {
-  const auto& given = value.get_ref<const std::string&>();
-  const bool sound = std::all_of(given.begin(), given.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
-  if (!sound || given.empty() || given.size() > kMaxNameLength) {
-    return place.reject(throng::describe(value), names().expected);
-  }
-  name = given;
 }
 
 void read(const json& value, fs::path& file, const FieldLocation& place) {
@@ -291,7 +273,8 @@ void add_recording(FieldTable<Draft>& table) {
 /// A recording has the fields of all kinds, so that a misspelled one is recognized.
 FieldTable<Draft> make_fields(Kind kind) {
   FieldTable<Draft> table;
-  add(table, "name", "", names(), at(&Experiment::name), "A name of its own.");
+  add(table, "name", "", fields::names(kMaxNameLength), at(&Experiment::name),
+      "A name of its own.");
   if (kind != Kind::loop) add_file(table);
   add_speeds(table);
   if (kind == Kind::recording) add_recording(table);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -39,11 +38,6 @@ fields::Values any_text() { return fields::raw({{"type", "string"}}, "a string")
 
 fields::Values needed_text() {
   return fields::raw({{"type", "string"}, {"minLength", 1}}, "a string that is not empty");
-}
-
-fields::Values names() {
-  return fields::texts_like(fmt::format("^[A-Za-z0-9_-]{{1,{}}}$", kMaxNameLength),
-                            fmt::format("at most {} letters, digits, - and _", kMaxNameLength));
 }
 
 /// Numbers of a range, with their meaning.
@@ -90,15 +84,6 @@ void add_clip(fields::FieldTable<Character>& table, const char* path, ClipMember
       help);
 }
 
-void set_name(Character& character, const json& value, const FieldLocation& place) {
-  value.get_to(character.name);
-  const bool sound = std::all_of(character.name.begin(), character.name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
-  if (sound && character.name.size() <= kMaxNameLength) return;
-  place.reject("\"" + character.name + "\"", names().expected);
-}
-
 void set_bones(Character& character, const json& value, const FieldLocation& place) {
   for (const auto& [ours, theirs] : value.items()) {
     if (theirs.is_string()) {
@@ -136,8 +121,8 @@ fields::FieldTable<Character> make_fields() {
   fields::FieldTable<Character> table;
   table.add_schema_name();
   table
-      .add_read("name", names(), set_name,
-                "Name in the library, and of the GLB file in its folder.")
+      .add("name", "", "", fields::names(kMaxNameLength), at(&Character::name),
+           "Name in the library, and of the GLB file in its folder.")
       .required();
   table
       .add_read(

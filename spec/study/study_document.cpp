@@ -1,7 +1,5 @@
 #include "spec/study/study_document.h"
 
-#include <algorithm>
-#include <cctype>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -26,30 +24,6 @@ constexpr double kMaxRunS = 7200;  // of a job
 
 fields::Values one_line() { return fields::raw({{"type", "string"}, {kOneLine, true}}); }
 
-fields::Values ids() {
-  return fields::texts_like("^[A-Za-z0-9_-]+$", "a name of letters, digits, '_' and '-'");
-}
-
-bool is_identifier(const std::string& text) {
-  constexpr std::string_view kSigns = "_-";
-  return !text.empty() && std::all_of(text.begin(), text.end(), [&](unsigned char c) {
-    return (std::isalnum(c) != 0 && c < 0x80) || kSigns.find(static_cast<char>(c)) != kSigns.npos;
-  });
-}
-
-/// Reads an id by the pattern of ids().
-template <typename Object>
-auto set_id(std::string Object::*member) {
-  return [member](Object& object, const json& value, const FieldLocation& place) {
-    const auto& text = value.get_ref<const std::string&>();
-    if (is_identifier(text)) {
-      object.*member = text;
-    } else {
-      place.reject("\"" + text + "\"", "a name of letters, digits, '_' and '-'");
-    }
-  };
-}
-
 /// Part of a job, which is checked with it.
 template <typename Object>
 void add_part(FieldTable<Object>& table, const char* path, const char* type, json Object::*member,
@@ -68,15 +42,16 @@ const FieldTable<ReferenceDocument>& reference_fields() {
     fields::Values rates =
         fields::raw({{"type", "array"}, {"items", fields::numbers(0, 1000).rules}});
     rates.expected = "one number for each exit";
-    auto& capacities = fields.add_read(
-        "capacity_per_s", std::move(rates),
-        [](ReferenceDocument& reference, const json& value, const FieldLocation& place) {
-          fields::set_value(value, reference.capacity_per_s);
-          reference.capacity_pointer = place.pointer;
-        },
-        "Mean flow of each exit; default: 1.3 per meter of its width.");
-    capacities.title = "Exit capacities";
-    capacities.measured_in("people/s");
+    fields
+        .add_read(
+            "capacity_per_s", std::move(rates),
+            [](ReferenceDocument& reference, const json& value, const FieldLocation& place) {
+              fields::set_value(value, reference.capacity_per_s);
+              reference.capacity_pointer = place.pointer;
+            },
+            "Mean flow of each exit; default: 1.3 per meter of its width.")
+        .titled("Exit capacities")
+        .measured_in("people/s");
     return fields;
   }();
   return table;
@@ -86,8 +61,8 @@ const FieldTable<CaseDocument>& case_fields() {
   static const FieldTable<CaseDocument> table = [] {
     FieldTable<CaseDocument> fields;
     fields
-        .add_read("id", ids(), set_id(&CaseDocument::id),
-                  "An identifier: letters, digits, '_' and '-'.")
+        .add("id", "", "", fields::names(), at(&CaseDocument::id),
+             "An identifier: letters, digits, '_' and '-'.")
         .required();
     fields.add("title", "Title", "", one_line(), at(&CaseDocument::title), "Name for people.");
     fields
@@ -123,8 +98,8 @@ const FieldTable<PolicyDocument>& policy_fields() {
   static const FieldTable<PolicyDocument> table = [] {
     FieldTable<PolicyDocument> fields;
     fields
-        .add_read("id", ids(), set_id(&PolicyDocument::id),
-                  "An identifier: letters, digits, '_' and '-'.")
+        .add("id", "", "", fields::names(), at(&PolicyDocument::id),
+             "An identifier: letters, digits, '_' and '-'.")
         .required();
     fields.add("title", "Title", "", one_line(), at(&PolicyDocument::title), "Name for people.");
     add_part(fields, "drones", "array", &PolicyDocument::drones,
@@ -151,42 +126,22 @@ void check_ids(const std::vector<Item>& items, const FieldLocation& list) {
   }
 }
 
-template <typename Item>
-std::vector<Item> read_list(const FieldTable<Item>& table, const json& value,
-                            const FieldLocation& place) {
-  std::vector<Item> items(value.size());
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    table.read_checked(value[i], items[i], place.below(i));
-  }
-  check_ids(items, place);
-  return items;
-}
-
-template <typename Item>
-fields::Values list_with(const FieldTable<Item>& table, const char* help) {
-  ordered_json items = {{"description", help}, {"type", "object"}};
-  items.update(table.schema());
-  return fields::raw({{"type", "array"}, {"items", std::move(items)}, {"minItems", 1}},
-                     "an array of at least 1");
-}
-
 void add_lists(FieldTable<StudyDocument>& table) {
   table
-      .add(
-          "cases", "Cases", "", list_with(case_fields(), "A case."),
-          [](const StudyDocument&) { return json(); },
-          [](StudyDocument& study, const json& value, const FieldLocation& place) {
-            study.cases = read_list(case_fields(), value, place);
-          },
-          "Scenarios and their conditions.")
+      .add_list("cases", case_fields(), at(&StudyDocument::cases),
+                "Scenarios and their conditions.", 1)
+      .titled("Cases")
+      .checked([](const StudyDocument& study, const json& /*list*/, const FieldLocation& place) {
+        check_ids(study.cases, place);
+      })
       .required();
-  table.add(
-      "policies", "Policies", "", list_with(policy_fields(), "A policy."),
-      [](const StudyDocument&) { return json(); },
-      [](StudyDocument& study, const json& value, const FieldLocation& place) {
-        study.policies = read_list(policy_fields(), value, place);
-      },
-      "Guidance methods; default: one without drones.");
+  table
+      .add_list("policies", policy_fields(), at(&StudyDocument::policies),
+                "Guidance methods; default: one without drones.", 1)
+      .titled("Policies")
+      .checked([](const StudyDocument& study, const json& /*list*/, const FieldLocation& place) {
+        check_ids(*study.policies, place);
+      });
 }
 
 FieldTable<StudyDocument> make_fields() {
@@ -199,9 +154,10 @@ FieldTable<StudyDocument> make_fields() {
             at(&StudyDocument::runs),
             "Number of runs of each case and policy; the run of one number has the same seed in "
             "all of them.");
-  table.add("baseline", "Baseline", "", ids(), at(&StudyDocument::baseline),
+  table.add("baseline", "Baseline", "", fields::names(), at(&StudyDocument::baseline),
             "Id of the policy that the others are compared with; default: the first one.");
-  table.add("baseline_case", "Baseline case", "", ids(), at(&StudyDocument::baseline_case),
+  table.add("baseline_case", "Baseline case", "", fields::names(),
+            at(&StudyDocument::baseline_case),
             "Id of the case that the others are compared with; default: the first one where there "
             "are no policies, else none.");
   fields::Values horizons = fields::lists(2, 2, fields::numbers(1, kMaxRunS).rules);

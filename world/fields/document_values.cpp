@@ -14,12 +14,6 @@ using fields::Values;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-namespace {
-
-constexpr const char* kIdExpected = "a name of letters, digits, '_' and '-'";
-
-}  // namespace
-
 ordered_json point_rules(int count, const std::string& expected) {
   ordered_json rules =
       fields::lists(count, count, fields::numbers(-kMaxCoordinateM, kMaxCoordinateM).rules).rules;
@@ -31,11 +25,9 @@ Values points() { return {point_rules(2, "[x, y]")}; }
 
 Values points_in_space() { return {point_rules(3, "[x, y, z]")}; }
 
-Values polygons() { return open_lists(3, points().rules); }
+Values polygons() { return fields::open_lists(3, points().rules); }
 
 Values any_texts() { return {{{"type", "string"}}, "text"}; }
-
-Values ids() { return fields::texts_like("^[A-Za-z0-9_-]+$", kIdExpected); }
 
 Values goals() {
   Values values = fields::lists(2, 2, fields::integers(0, kMaxId).rules);
@@ -44,31 +36,6 @@ Values goals() {
 }
 
 Values headings_deg() { return fields::numbers(-360, 360); }
-
-Values open_lists(int min_items, ordered_json items) {
-  ordered_json rules = {{"type", "array"}};
-  if (min_items > 0) rules["minItems"] = min_items;
-  rules["items"] = std::move(items);
-  return {std::move(rules),
-          min_items > 0 ? fmt::format("an array of at least {}", min_items) : "an array"};
-}
-
-Values object_lists(const ordered_json& fields) {
-  return open_lists(0, fields::object_with(fields).rules);
-}
-
-void set_id(std::string& id, const json& value, const FieldLocation& place) {
-  const auto& word = value.get_ref<const std::string&>();
-  const auto is_allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-  };
-  if (word.empty() || !std::all_of(word.begin(), word.end(), is_allowed)) {
-    place.reject(describe(value), kIdExpected);
-  } else {
-    id = word;
-  }
-}
 
 GoalRef goal_named(const json& value) { return {value.at(0).get<int>(), value.at(1).get<int>()}; }
 
@@ -81,11 +48,16 @@ std::vector<Eigen::Vector2d> read_points(const json& value) {
   return points;
 }
 
-bool check_simple(const std::vector<Eigen::Vector2d>& corners, const FieldLocation& place) {
-  if (geometry::is_simple(corners)) return true;
-  place.reject("edges that touch each other",
-               "a polygon whose corners all differ and whose edges do not cross");
-  return false;
+std::vector<Eigen::Vector2d> read_polygon(const json& value, const FieldLocation& place,
+                                          bool is_turned) {
+  std::vector<Eigen::Vector2d> corners = read_points(value);
+  if (!geometry::is_simple(corners)) {
+    place.reject("edges that touch each other",
+                 "a polygon whose corners all differ and whose edges do not cross");
+  } else if (is_turned && geometry::signed_area(corners) < 0) {
+    std::reverse(corners.begin(), corners.end());
+  }
+  return corners;
 }
 
 bool check_ends(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double min_length_m,

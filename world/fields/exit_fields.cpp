@@ -23,7 +23,8 @@ namespace {
 constexpr double kNarrowestExitM = 0.1;
 constexpr double kMaxClosingS = 1e6;
 
-/// Until check_outward(), the outward vector is that of the file.
+}  // namespace
+
 const FieldTable<Exit>& exit_fields() {
   static const FieldTable<Exit> fields = [] {
     FieldTable<Exit> table;
@@ -31,7 +32,7 @@ const FieldTable<Exit>& exit_fields() {
     table.add("from", "", "m", points(), at(&Exit::from), "One end of the door.").required();
     table.add("to", "", "m", points(), at(&Exit::to), "The other end of the door.").required();
     table.add_read(
-        "goals", open_lists(1, goals().rules),
+        "goals", fields::open_lists(1, goals().rules),
         [](Exit& exit, const json& value, const FieldLocation& /*place*/) {
           for (const json& goal : value) exit.goals.push_back(goal_named(goal));
         },
@@ -55,6 +56,8 @@ const FieldTable<Exit>& exit_fields() {
   }();
   return fields;
 }
+
+namespace {
 
 /// Makes the outward vector the unit normal of the segment that points out.
 void check_outward(Exit& exit, const json& value, const geometry::Region& inside,
@@ -82,9 +85,8 @@ void check_outward(Exit& exit, const json& value, const geometry::Region& inside
   }
 }
 
-Exit read_exit(const json& value, const geometry::Region& inside, const FieldLocation& place) {
-  Exit exit;
-  exit_fields().read_checked(value, exit, place);
+void check_exit(Exit& exit, const json& value, const geometry::Region& inside,
+                const FieldLocation& place) {
   if (check_ends(exit.from, exit.to, kNarrowestExitM, value, place)) {
     check_outward(exit, value, inside, place);
   } else {
@@ -94,7 +96,6 @@ Exit read_exit(const json& value, const geometry::Region& inside, const FieldLoc
     const char* field = value.contains("closes_at_s") ? "closes_at_s" : "shuts_s";
     place.below(field).reject("a time, though the door is never open", "none");
   }
-  return exit;
 }
 
 /// Rejects goals that an exit before has.
@@ -123,23 +124,14 @@ void check_overlaps(const std::vector<Exit>& exits, const FieldLocation& place) 
 
 }  // namespace
 
-fields::Values exit_lists() {
-  fields::Values values = open_lists(1, fields::object_with(exit_fields().schema()).rules);
-  values.expected = "a list of at least one exit";
-  return values;
-}
-
-std::vector<Exit> read_exits(const json& list, const geometry::Region& inside,
-                             const FieldLocation& place) {
-  const std::size_t problems = place.problems.size();
-  std::vector<Exit> exits =
-      read_list(list, place, [&](const json& value, const FieldLocation& item, std::size_t) {
-        return read_exit(value, inside, item);
-      });
+void check_exits(Scenario& scenario, const json& list, const FieldLocation& place) {
+  std::vector<Exit>& exits = scenario.exits;
+  for (std::size_t i = 0; i < exits.size(); ++i) {
+    check_exit(exits[i], list[i], scenario.inside, place.below(i));
+  }
   check_ids(exits, place);
   check_goals(exits, place);
-  if (place.problems.size() == problems) check_overlaps(exits, place);
-  return exits;
+  if (!place.has_problem()) check_overlaps(exits, place);
 }
 
 }  // namespace throng::world

@@ -1,10 +1,8 @@
 #include "world/fields/ground_fields.h"
 
-#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "base/geometry/polygon.h"
 #include "world/fields/document_values.h"
 
 namespace throng::world {
@@ -31,10 +29,7 @@ const FieldTable<GroundArea>& area_fields() {
         .add_read(
             "corners", polygons(),
             [](GroundArea& area, const json& value, const FieldLocation& place) {
-              area.corners = read_points(value);
-              if (check_simple(area.corners, place) && geometry::signed_area(area.corners) < 0) {
-                std::reverse(area.corners.begin(), area.corners.end());
-              }
+              area.corners = read_polygon(value, place, true);
             },
             "Corners in order; the edges must not cross.")
         .measured_in("m")
@@ -75,20 +70,13 @@ const FieldTable<Marking>& marking_fields() {
   return fields;
 }
 
-GroundArea read_ground_area(const json& value, const FieldLocation& place) {
-  GroundArea area;
-  area_fields().read_checked(value, area, place);
-  return area;
-}
-
-Marking read_marking(const json& value, const FieldLocation& place) {
+void check_markings(Scenario& scenario, const json& list, const FieldLocation& place) {
   constexpr double kCrossingM = 4;
-  Marking marking;
-  marking_fields().read_checked(value, marking, place);
-  if (!value.is_object()) return marking;
-  if (marking.kind == "crossing" && !value.contains("width_m")) marking.width_m = kCrossingM;
-  check_ends(marking.from, marking.to, kMinMarkingM, value, place);
-  return marking;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Marking& marking = scenario.markings[i];
+    if (marking.kind == "crossing" && !list[i].contains("width_m")) marking.width_m = kCrossingM;
+    check_ends(marking.from, marking.to, kMinMarkingM, list[i], place.below(i));
+  }
 }
 
 }  // namespace throng::world

@@ -5,19 +5,19 @@
 
 #include "base/json/field_table.h"
 #include "world/ground.h"
+#include "world/scenario.h"
 
 namespace throng::world {
 
 /// "pavers", "asphalt", "grass", "concrete" or "dirt".
 fields::Values ground_materials();
 
-/// The fields of an area and of a marking.
+/// The fields of an area, whose corners are put in counter-clockwise order, and of a marking.
 const fields::FieldTable<GroundArea>& area_fields();
 const fields::FieldTable<Marking>& marking_fields();
 
-/// Reads an area. Corners are put in counter-clockwise order.
-GroundArea read_ground_area(const nlohmann::json& value, const fields::FieldLocation& place);
-/// Reads a marking, whose default width depends on its kind.
-Marking read_marking(const nlohmann::json& value, const fields::FieldLocation& place);
+/// Sets the widths of markings that have none, by their kind, and checks their ends.
+void check_markings(Scenario& scenario, const nlohmann::json& list,
+                    const fields::FieldLocation& place);
 
 }  // namespace throng::world

@@ -104,17 +104,12 @@ std::uint32_t look_hash(int seed, std::uint64_t index) {
   return Random(static_cast<std::uint64_t>(seed), Stream::environment, index).bits();
 }
 
+}  // namespace
+
 const FieldTable<Prop>& prop_fields() {
   static const FieldTable<Prop> fields = [] {
     FieldTable<Prop> table;
-    table
-        .add_read(
-            "kind", prop_kinds(),
-            [](Prop& prop, const json& value, const FieldLocation& /*place*/) {
-              prop.kind = kind_named(value);
-            },
-            "Kind of prop.")
-        .required();
+    table.add_word("kind", "", kind_names(), at(&Prop::kind), "Kind of prop.").required();
     table.add("position", "", "m", points(), at(&Prop::position), "Position of the prop.")
         .required();
     table
@@ -136,6 +131,8 @@ const FieldTable<Prop>& prop_fields() {
   return fields;
 }
 
+namespace {
+
 /// Props that a seed places.
 struct Scatter {
   std::vector<PropKind> kinds;
@@ -153,15 +150,14 @@ const FieldTable<Scatter>& scatter_fields() {
         .add_read(
             "area", polygons(),
             [](Scatter& scatter, const json& value, const FieldLocation& place) {
-              scatter.area = read_points(value);
-              check_simple(scatter.area, place);
+              scatter.area = read_polygon(value, place);
             },
             "Corners of the area, in order; the edges must not cross.")
         .measured_in("m")
         .required();
     table
         .add_read(
-            "kinds", open_lists(1, prop_kinds().rules),
+            "kinds", fields::open_lists(1, prop_kinds().rules),
             [](Scatter& scatter, const json& value, const FieldLocation& /*place*/) {
               for (const json& name : value) scatter.kinds.push_back(kind_named(name));
             },
@@ -216,31 +212,27 @@ fields::Values prop_kinds() { return fields::one_of_words(kind_names()); }
 
 fields::Values prop_scales() { return fields::numbers(kMinScale, kMaxScale); }
 
-fields::Values prop_lists() { return object_lists(prop_fields().schema()); }
+fields::Values scatter_lists() {
+  return fields::open_lists(0, fields::object_with(scatter_fields().schema()).rules);
+}
 
-fields::Values scatter_lists() { return object_lists(scatter_fields().schema()); }
-
-std::vector<Prop> read_props(const json& list, const Scenario& scenario,
-                             const FieldLocation& place) {
-  return read_list(list, place, [&](const json& value, const FieldLocation& item, std::size_t i) {
-    Prop prop;
-    prop.look = look_hash(0, i);
-    const std::size_t problems = place.problems.size();
-    prop_fields().read_checked(value, prop, item);
-    if (place.problems.size() > problems) return prop;
+void check_props(Scenario& scenario, const json& list, const FieldLocation& place) {
+  scenario.placed_props = scenario.props.size();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Prop& prop = scenario.props[i];
+    const FieldLocation item = place.below(i);
+    if (!list[i].is_object() || !list[i].contains("look")) prop.look = look_hash(0, i);
+    if (item.has_problem()) continue;
     if (const auto refusal = find_refusal(prop, scenario)) {
       item.below("position").reject(refusal->found, refusal->expected);
     }
-    return prop;
-  });
+  }
 }
 
-void scatter_props(const json& list, Scenario& scenario, const FieldLocation& place) {
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    Scatter scatter;
-    const std::size_t problems = place.problems.size();
-    scatter_fields().read_checked(list[i], scatter, place.below(i));
-    if (place.problems.size() == problems) scatter_over(scatter, scenario, scenario.props);
+void scatter_props(Scenario& scenario, const json& list, const FieldLocation& place) {
+  const std::vector<Scatter> scatters = scatter_fields().read_list(list, place);
+  for (std::size_t i = 0; i < scatters.size(); ++i) {
+    if (!place.below(i).has_problem()) scatter_over(scatters[i], scenario, scenario.props);
   }
 }
 

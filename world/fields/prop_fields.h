@@ -2,10 +2,9 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <vector>
 
 #include "base/json/field_table.h"
-#include "world/props.h"
+#include "world/scenario.h"
 
 namespace throng::world {
 
@@ -13,18 +12,20 @@ namespace throng::world {
 fields::Values prop_kinds();
 fields::Values prop_scales();
 
-/// Rules of the lists "props" and "scatter" of a scenario.
-fields::Values prop_lists();
+/// The fields of a prop.
+const fields::FieldTable<Prop>& prop_fields();
+
+/// Rules of the list "scatter" of a scenario.
 fields::Values scatter_lists();
 
-/// Reads the list "props" of a scenario whose exits and buildings are already read. A prop in a
-/// building or within kClearOfExitsM of an exit is a problem.
-std::vector<Prop> read_props(const nlohmann::json& list, const Scenario& scenario,
-                             const fields::FieldLocation& place);
+/// Sets the looks of props that were read without one. A prop in a building or within
+/// kClearOfExitsM of an exit, which are already read, is a problem.
+void check_props(Scenario& scenario, const nlohmann::json& list,
+                 const fields::FieldLocation& place);
 
 /// Reads the list "scatter" and adds its props, which avoid buildings, exits and each other, to
 /// those of a scenario whose exits, buildings and placed props are already read.
-void scatter_props(const nlohmann::json& list, Scenario& scenario,
+void scatter_props(Scenario& scenario, const nlohmann::json& list,
                    const fields::FieldLocation& place);
 
 }  // namespace throng::world

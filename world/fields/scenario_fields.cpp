@@ -53,11 +53,7 @@ const FieldTable<geometry::Region>& polygon_fields() {
         .add_read(
             "corners", polygons(),
             [](geometry::Region& region, const json& value, const FieldLocation& place) {
-              region.outline = read_points(value);
-              if (check_simple(region.outline, place) &&
-                  geometry::signed_area(region.outline) < 0) {
-                std::reverse(region.outline.begin(), region.outline.end());
-              }
+              region.outline = read_polygon(value, place, true);
               region.bounds = geometry::bounding_box(region.outline);
             },
             "The corners of a polygon in order, instead of min and max; the edges must not cross.")
@@ -122,24 +118,12 @@ void add_ground(FieldTable<Scenario>& table) {
       .add("ground/material", "", "", ground_materials(), at(&Scenario::ground_material),
            "Material of the ground.")
       .required();
-  table.add_read(
-      "ground/areas", object_lists(area_fields().schema()),
-      [](Scenario& scenario, const json& list, const FieldLocation& place) {
-        scenario.areas =
-            read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
-              return read_ground_area(value, item);
-            });
-      },
-      "Areas of other materials, later ones on top.");
-  table.add_read(
-      "ground/markings", object_lists(marking_fields().schema()),
-      [](Scenario& scenario, const json& list, const FieldLocation& place) {
-        scenario.markings =
-            read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
-              return read_marking(value, item);
-            });
-      },
-      "Painted strips on the ground.");
+  table.add_list("ground/areas", area_fields(), at(&Scenario::areas),
+                 "Areas of other materials, later ones on top.");
+  table
+      .add_list("ground/markings", marking_fields(), at(&Scenario::markings),
+                "Painted strips on the ground.")
+      .checked(check_markings);
 }
 
 void set_disaster_agents(Scenario& scenario, const json& list, const FieldLocation& place) {
@@ -154,17 +138,15 @@ void set_disaster_agents(Scenario& scenario, const json& list, const FieldLocati
 }
 
 void add_hazards(FieldTable<Scenario>& table) {
-  table.add_read("disaster_agents", open_lists(0, fields::integers(0, kMaxId).rules),
+  table.add_read("disaster_agents", fields::open_lists(0, fields::integers(0, kMaxId).rules),
                  set_disaster_agents,
                  "Agents that stand for a hazard. They are neither rendered nor counted; without "
                  "disasters, smoke rises from them all the time if the job wants it "
                  "(environment.smoke).");
-  table.add_read(
-      "disasters", disaster_lists(),
-      [](Scenario& scenario, const json& list, const FieldLocation& place) {
-        scenario.disasters = read_disasters(list, place);
-      },
-      "Visible hazards, if the job wants them (environment.smoke).");
+  table
+      .add_list("disasters", listed_disaster_fields(), at(&Scenario::disasters),
+                "Visible hazards, if the job wants them (environment.smoke).")
+      .checked(check_disaster_agents);
   table.add("guides_alert", "", "", fields::booleans(), at(&Scenario::guides_alert),
             "Whether the behavior file lets people who have noticed nothing follow a drone; "
             "policies reckon with it.");
@@ -177,44 +159,21 @@ void add_parts(FieldTable<Scenario>& table) {
                 "People who leave it have escaped: a rectangle (min, max) or a polygon (corners).")
       .required();
   table
-      .add_read(
-          "exits", exit_lists(),
-          [](Scenario& scenario, const json& list, const FieldLocation& place) {
-            scenario.exits = read_exits(list, scenario.inside, place);
-          },
-          "Doors that lead out: segments on the ground that people cross to get out.")
+      .add_list("exits", exit_fields(), at(&Scenario::exits),
+                "Doors that lead out: segments on the ground that people cross to get out.", 1)
+      .expecting("a list of at least one exit")
+      .checked(check_exits)
       .required();
-  table.add_read(
-      "buildings", building_lists(),
-      [](Scenario& scenario, const json& list, const FieldLocation& place) {
-        scenario.buildings = read_buildings(list, place);
-      },
-      "Buildings and walls.");
-  table.add_read(
-      "drones", drone_lists(),
-      [](Scenario& scenario, const json& list, const FieldLocation& place) {
-        scenario.drones = read_drones(list, scenario.buildings, place);
-      },
-      "Drones that jobs fly.");
-  table.add_read(
-      "meshes", mesh_lists(),
-      [](Scenario& scenario, const json& list, const FieldLocation& place) {
-        scenario.meshes = read_meshes(list, place);
-      },
-      "Meshes that are rendered.");
-  table.add_read(
-      "props", prop_lists(),
-      [](Scenario& scenario, const json& list, const FieldLocation& place) {
-        scenario.props = read_props(list, scenario, place);
-        scenario.placed_props = scenario.props.size();
-      },
-      "Props, each at its position.");
-  table.add_read(
-      "scatter", scatter_lists(),
-      [](Scenario& scenario, const json& list, const FieldLocation& place) {
-        scatter_props(list, scenario, place);
-      },
-      "Props that a seed places at random.");
+  table.add_list("buildings", building_fields(), at(&Scenario::buildings), "Buildings and walls.")
+      .checked([](const Scenario& scenario, const json& /*list*/, const FieldLocation& place) {
+        check_ids(scenario.buildings, place);
+      });
+  table.add_list("drones", drone_fields(), at(&Scenario::drones), "Drones that jobs fly.")
+      .checked(check_drones);
+  table.add_list("meshes", mesh_fields(), at(&Scenario::meshes), "Meshes that are rendered.");
+  table.add_list("props", prop_fields(), at(&Scenario::props), "Props, each at its position.")
+      .checked(check_props);
+  table.add_read("scatter", scatter_lists(), scatter_props, "Props that a seed places at random.");
 }
 
 }  // namespace

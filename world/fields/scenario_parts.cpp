@@ -47,11 +47,13 @@ void add_yaw(FieldTable<Part>& table, std::string help) {
 }
 
 void set_footprint(Building& building, const json& value, const FieldLocation& place) {
-  building.footprint = read_points(value);
-  if (check_simple(building.footprint, place) && geometry::signed_area(building.footprint) <= 0) {
+  building.footprint = read_polygon(value, place);
+  if (!place.has_problem() && geometry::signed_area(building.footprint) <= 0) {
     place.reject("corners in clockwise order", "counter-clockwise order, seen from above");
   }
 }
+
+}  // namespace
 
 const FieldTable<Building>& building_fields() {
   static const FieldTable<Building> fields = [] {
@@ -102,6 +104,8 @@ const FieldTable<DroneStart>& drone_fields() {
   return fields;
 }
 
+namespace {
+
 void check_start(const Eigen::Vector3d& position, const std::vector<Building>& buildings,
                  const FieldLocation& place) {
   if (position.z() <= 0) {
@@ -134,6 +138,8 @@ void set_mesh_file(PlacedMesh& mesh, const json& value, const FieldLocation& pla
   }
 }
 
+}  // namespace
+
 const FieldTable<PlacedMesh>& mesh_fields() {
   static const FieldTable<PlacedMesh> fields = [] {
     FieldTable<PlacedMesh> table;
@@ -163,8 +169,6 @@ const FieldTable<PlacedMesh>& mesh_fields() {
   return fields;
 }
 
-}  // namespace
-
 fs::path read_companion(const json& value, const FieldLocation& place) {
   const auto& name = value.get_ref<const std::string&>();
   fs::path path = fs::absolute(place.source).parent_path() / name;
@@ -181,44 +185,13 @@ fs::path read_companion(const json& value, const FieldLocation& place) {
   return path.lexically_normal();
 }
 
-fields::Values building_lists() { return object_lists(building_fields().schema()); }
-
-fields::Values drone_lists() { return object_lists(drone_fields().schema()); }
-
-fields::Values mesh_lists() { return object_lists(mesh_fields().schema()); }
-
-std::vector<Building> read_buildings(const json& list, const FieldLocation& place) {
-  std::vector<Building> buildings =
-      read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
-        Building building;
-        building_fields().read_checked(value, building, item);
-        return building;
-      });
-  check_ids(buildings, place);
-  return buildings;
-}
-
-std::vector<DroneStart> read_drones(const json& list, const std::vector<Building>& buildings,
-                                    const FieldLocation& place) {
-  std::vector<DroneStart> drones =
-      read_list(list, place, [&](const json& value, const FieldLocation& item, std::size_t) {
-        DroneStart drone;
-        drone_fields().read_checked(value, drone, item);
-        if (has_valid(value, "start", item)) {
-          check_start(drone.position, buildings, item.below("start"));
-        }
-        return drone;
-      });
-  check_ids(drones, place);
-  return drones;
-}
-
-std::vector<PlacedMesh> read_meshes(const json& list, const FieldLocation& place) {
-  return read_list(list, place, [](const json& value, const FieldLocation& item, std::size_t) {
-    PlacedMesh mesh;
-    mesh_fields().read_checked(value, mesh, item);
-    return mesh;
-  });
+void check_drones(Scenario& scenario, const json& list, const FieldLocation& place) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const FieldLocation item = place.below(i);
+    if (!has_valid(list[i], "start", item)) continue;
+    check_start(scenario.drones[i].position, scenario.buildings, item.below("start"));
+  }
+  check_ids(scenario.drones, place);
 }
 
 }  // namespace throng::world

@@ -2,31 +2,24 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "base/json/field_table.h"
 #include "world/scenario.h"
 
 namespace throng::world {
 
-/// Rules of the lists "buildings", "drones" and "meshes" of a scenario.
-fields::Values building_lists();
-fields::Values drone_lists();
-fields::Values mesh_lists();
+/// The fields of a building, of a drone and of a mesh.
+const fields::FieldTable<Building>& building_fields();
+const fields::FieldTable<DroneStart>& drone_fields();
+const fields::FieldTable<PlacedMesh>& mesh_fields();
 
 /// Returns the file of this name beside the scenario, whose path is the source of the document; a
 /// problem if there is none.
 std::filesystem::path read_companion(const nlohmann::json& value,
                                      const fields::FieldLocation& place);
 
-/// Reads the list of buildings.
-std::vector<Building> read_buildings(const nlohmann::json& list,
-                                     const fields::FieldLocation& place);
-/// Reads the list of drones, which start outside the buildings.
-std::vector<DroneStart> read_drones(const nlohmann::json& list,
-                                    const std::vector<Building>& buildings,
-                                    const fields::FieldLocation& place);
-/// Reads the list of meshes.
-std::vector<PlacedMesh> read_meshes(const nlohmann::json& list, const fields::FieldLocation& place);
+/// Checks that the drones that were read start outside the buildings, and their ids.
+void check_drones(Scenario& scenario, const nlohmann::json& list,
+                  const fields::FieldLocation& place);
 
 }  // namespace throng::world

@@ -114,6 +114,45 @@ TEST(FieldTable, AnOldNameIsReadUnlessBothAreGiven) {
           R"(lamp.json: /lamps/0/number: found both "count" and "number", expected only "count")"));
 }
 
+struct Street {
+  std::string id;
+  std::vector<Lamp> lamps;
+};
+
+TEST(FieldTable, ReadsListsOfObjectsAndChecksNames) {
+  const FieldTable<Lamp> lamps = lamp_fields();
+  FieldTable<Street> table;
+  table.add("id", "", "", names(4), at(&Street::id), "Id.").required();
+  table.add_list("lamps", lamps, at(&Street::lamps), "Lamps.", 1)
+      .checked([](const Street& street, const json& /*list*/, const FieldLocation& place) {
+        if (street.lamps[0].count > 2) place.below(0).reject("many", "few");
+      });
+  const auto problems_in = [&](const char* text, Street& street) {
+    const std::string source = "street.json";
+    std::vector<Problem> problems;
+    table.read_checked(json::parse(text), street, {"", source, problems});
+    std::vector<std::string> texts;
+    for (const Problem& problem : problems) texts.push_back(problem.text());
+    return texts;
+  };
+  Street street;
+  EXPECT_THAT(problems_in(R"({"id": "a-_9", "lamps": [{"name": "x"}, {"name": "y"}]})", street),
+              ElementsAre());
+  ASSERT_EQ(street.lamps.size(), 2U);
+  EXPECT_EQ(street.lamps[1].name, "y");
+  EXPECT_THAT(
+      problems_in(R"({"id": "a b", "lamps": [{"count": 3, "name": "x"}, {"on": 1}]})", street),
+      UnorderedElementsAre(
+          R"(street.json: /id: found "a b", expected a name of letters, digits, '_' and '-', of at )"
+          "most 4 characters",
+          "street.json: /lamps/1/on: found 1, expected true or false",
+          ::testing::HasSubstr("/lamps/1/name: found nothing"),
+          "street.json: /lamps/0: found many, expected few"));
+  EXPECT_THAT(problems_in(R"({"id": "abcde", "lamps": []})", street),
+              ElementsAre(::testing::HasSubstr("/id"),
+                          "street.json: /lamps: found [], expected an array of at least 1"));
+}
+
 TEST(FieldTable, PrintsTheValuesThatItReads) {
   const Outcome outcome = read(R"({"size": {"height_m": 2}, "name": "a"})");
   EXPECT_EQ(lamp_fields().print(outcome.lamp),

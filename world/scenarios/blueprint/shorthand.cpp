@@ -35,7 +35,7 @@ void expand_box(const BoxList& list, json& item, const FieldLocation& place, Exp
   if (!item.is_object() || !item.contains("box")) return;
   const auto& field = box_fields().fields().front();
   const FieldLocation box_place = place.below("box");
-  if (!fields::check_value(item["box"], field, box_place)) return;
+  if (!fields::check_value(item["box"], field.values, box_place)) return;
   Box box;
   field.set(box, item["box"], box_place);
   const Vector2d low = box.corners.head<2>();
