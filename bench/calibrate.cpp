@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "base/compute/random.h"
-#include "camera/calibration/intrinsics.h"
-#include "camera/calibration/pose.h"
-#include "tests/camera/calibration/boards.h"
+#include "calibration/intrinsics.h"
+#include "calibration/pose.h"
+#include "tests/calibration/boards.h"
 
 namespace {
 

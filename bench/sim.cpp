@@ -7,11 +7,11 @@
 #include <filesystem>
 
 #include "base/files/resources.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/planning/plan.h"
 #include "sim/run.h"
 #include "sim/vehicle/flight.h"
 #include "world/scenario.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng {
 namespace {

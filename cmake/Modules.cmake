@@ -8,11 +8,11 @@ include("${CMAKE_CURRENT_LIST_DIR}/JoinSources.cmake")
 # of the time that -O2 takes to compile); all others have -O1. Loops of a kernel (throng_kernels) have -O3. With sanitizers those that
 # compute have -O1.
 set(THRONG_OPTIMIZED_MODULES base crowd camera sim skinning render annotate)
-set(THRONG_SERVING_MODULES spec jobs/queue jobs/bucket jobs/foxglove jobs/live/loop jobs/live jobs/study server cli/common cli/import cli cli/more)
+set(THRONG_SERVING_MODULES spec jobs/queue jobs/bucket live/foxglove live/loop live/flight jobs/study server cli/common cli/import cli cli/more)
 # These are optimized with sanitizers too: their tests look at every pixel.
-set(THRONG_PIXEL_MODULES annotate formats formats/validate)
+set(THRONG_PIXEL_MODULES annotate formats check)
 # The modules that the fuzz targets (tests/fuzz) cover.
-set(THRONG_FUZZED_MODULES base crowd/description world crowd world/imports spec metrics)
+set(THRONG_FUZZED_MODULES base crowd/description world crowd places/imports spec metrics)
 
 # throng_module(NAME PUBLIC header... SOURCES file... MODULES module... LIBRARIES target... PRIVATE_LIBRARIES target...
 #   REFUSES module...)

@@ -149,7 +149,7 @@ IDENTIFIERS = (
 
 # A term of its own in some folders: in OpenStreetMap's data model an ordered list of nodes is a "way"
 # (wiki.openstreetmap.org/wiki/Way).
-TERMS_BY_FOLDER = {"ways": ("world/imports/", "tests/world/imports/")}
+TERMS_BY_FOLDER = {"ways": ("places/imports/", "tests/places/imports/")}
 
 
 def is_term_here(word, path):

@@ -12,7 +12,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "sheets"))
 from doc_images import maker  # noqa: E402
 
-MODULES = "annotate base camera cli crowd formats jobs metrics render server sim skinning spec world".split()
+MODULES = "annotate base calibration camera check cli crowd formats jobs live metrics places render server sim skinning spec validation world".split()
 CODE_FOLDERS = [*MODULES, "bench", "examples", "python/engine", "scripts", "tests"]
 # Files, and the largest size of one in KiB. The first rule that names a file holds for it; a * matches slashes, too.
 RULES = [

@@ -14,6 +14,8 @@ through others.
 
 Readers of other people's datasets open files by base/files/untrusted_folders.h only, which follows no links.
 
+A top-level folder is a floor: no two of them include each other.
+
 A module declares all folders in it by throng_folder(), its own one ("."), too. A file in one may include its own folder,
 the module's own (the interface, and what all share) and those that the folder USES, which precede it.
 """
@@ -173,11 +175,18 @@ class Check:
         self.dependencies = set()  # (module, module) that includes need
         self.outside = set()  # headers that are included from outside of their module
         self.needed = set()  # (file, header) that an exception may be for
+        self.stairs = {}  # (top-level folder, top-level folder) -> place and header of an include between them
 
     def run(self):
         for path in self.of.files:
             for header, line in self.of.includes(path):
                 self.judge(path, header, line)
+        for (lower, upper), (place, header) in sorted(self.stairs.items()):
+            if lower < upper and (upper, lower) in self.stairs:
+                self.violations.append(
+                    f"{place}: includes {header}, but '{upper}' includes '{lower}', too ({self.stairs[upper, lower][0]}), "
+                    "and a top-level folder is a floor"
+                )
         for path in self.of.files:
             if self.of.module_of(path) in READS_DATASETS:
                 self.check_opening(path)
@@ -197,6 +206,8 @@ class Check:
         if module is None or module == owner:
             return self.judge_folders(path, header, line) if owner in self.declared else None
         self.dependencies.add((owner, module))
+        if owner is not None and owner.split("/")[0] != module.split("/")[0]:
+            self.stairs.setdefault((owner.split("/")[0], module.split("/")[0]), (f"{path}:{line}", header))
         if home and f"{module}/".startswith(f"{home}/"):
             return
         self.outside.add(header)

@@ -163,8 +163,8 @@ step_asan() {
   THRONG_TEST_PROGRAM="$root/build/release/cli/throng" asan_ctest asan --repeat-waits -j3 -L '^sanitized$'
 }
 
-# The crowd's tests are those that compare numbers of threads. Live flights have their threads in jobs/live/loop: the rest of
-# jobs/live, and jobs/engine, which begins none, link the simulation and the renderer, which take minutes to compile. None of
+# The crowd's tests are those that compare numbers of threads. Live flights have their threads in live/loop: the rest of
+# live/flight, and live/engine, which begins none, link the simulation and the renderer, which take minutes to compile. None of
 # these is ever repeated.
 step_tsan() {
   say "building and testing (ThreadSanitizer): the concurrent parts"

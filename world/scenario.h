@@ -156,7 +156,7 @@ void thin_out(Scenario& scenario, double share, std::uint64_t seed);
 /// else that of the source tree.
 std::filesystem::path scenarios_folder();
 
-/// File name suffix of blueprints (world/scenarios/blueprint/blueprint.h).
+/// File name suffix of blueprints (places/scenarios/blueprint/blueprint.h).
 inline constexpr std::string_view kBlueprintEnding = ".blueprint.json";
 
 /// File name suffix of blueprints of version 0.1, which are still read.

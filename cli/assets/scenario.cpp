@@ -28,14 +28,14 @@
 #include "cli/shell/trace_file.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
+#include "places/scenarios/blueprint/blueprint.h"
+#include "places/scenarios/blueprint/generate.h"
+#include "places/scenarios/blueprint/generated.h"
+#include "places/scenarios/check/check.h"
+#include "places/scenarios/plan/plan.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/job/scenario_mix.h"
 #include "world/drone_path.h"
-#include "world/scenarios/blueprint/blueprint.h"
-#include "world/scenarios/blueprint/generate.h"
-#include "world/scenarios/blueprint/generated.h"
-#include "world/scenarios/check/check.h"
-#include "world/scenarios/plan/plan.h"
 
 namespace throng::cli {
 

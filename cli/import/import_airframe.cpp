@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/text/suggest.h"
+#include "places/imports/imports.h"
 #include "spec/sim/airframe.h"
-#include "world/imports/imports.h"
 
 namespace throng::cli {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "world/imports/imports.h"
+#include "places/imports/imports.h"
 
 namespace throng::cli {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "camera/calibration/board.h"
+#include "calibration/board.h"
 #include "camera/camera.h"
 #include "spec/calibration/camera_file.h"
 #include "world/scenario.h"

@@ -11,7 +11,7 @@
 #include "cli/shell/input_file.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress_bar.h"
-#include "jobs/live/outside/outside_flight.h"
+#include "live/flight/outside/outside_flight.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"
 #include "world/scenario.h"

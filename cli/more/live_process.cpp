@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/more/more_commands.h"
-#include "jobs/live/session.h"
+#include "live/flight/session.h"
 
 namespace throng::cli {
 

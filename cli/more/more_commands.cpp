@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "camera/calibration/request.h"
+#include "calibration/request.h"
 #include "jobs/queue/dataset/folder.h"
 
 namespace throng::cli {

@@ -1,5 +1,5 @@
 // throng validate: does a dataset keep what its formats promise?
-#include "formats/validate/validate.h"
+#include "check/validate.h"
 
 #include <fmt/core.h>
 

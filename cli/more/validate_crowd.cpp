@@ -17,9 +17,9 @@
 #include "cli/shell/file_kind.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress_bar.h"
-#include "crowd/validation/experiments/plots.h"
-#include "crowd/validation/experiments/report.h"
-#include "crowd/validation/suite.h"
+#include "validation/experiments/plots.h"
+#include "validation/experiments/report.h"
+#include "validation/suite.h"
 
 namespace throng::cli {
 

@@ -13,9 +13,9 @@
 #include "cli/shell/commands.h"
 #include "cli/shell/document_kind.h"
 #include "cli/shell/input_file.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "world/scenario.h"
 #include "world/scenario_id.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::cli {
 

@@ -17,14 +17,14 @@
 #include "jobs/pipeline/checks/scenario_check.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
+#include "places/scenarios/blueprint/blueprint.h"
+#include "places/scenarios/blueprint/load_scenario.h"
+#include "places/scenarios/plan/plan.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/layouts/plan_sheet.h"
 #include "spec/scenarios/scenario_summary.h"
 #include "world/scenario.h"
-#include "world/scenarios/blueprint/blueprint.h"
-#include "world/scenarios/blueprint/load_scenario.h"
-#include "world/scenarios/plan/plan.h"
 
 namespace throng::jobs {
 

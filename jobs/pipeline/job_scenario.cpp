@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "world/scenarios/blueprint/generated.h"
-#include "world/scenarios/blueprint/load_scenario.h"
+#include "places/scenarios/blueprint/generated.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "world/trace_scenario.h"
 
 namespace throng::jobs {

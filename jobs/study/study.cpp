@@ -15,9 +15,9 @@
 #include "crowd/description/menge_files/write.h"
 #include "jobs/pipeline/checks/rehearsal.h"
 #include "jobs/pipeline/checks/resolve.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "spec/study/study_document.h"
 #include "world/scenario_crowd.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::study {
 

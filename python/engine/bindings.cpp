@@ -1,4 +1,4 @@
-// The module throng_engine of Python: jobs/engine/stepped_job.h with arrays of NumPy that show the
+// The module throng_engine of Python: live/engine/stepped_job.h with arrays of NumPy that show the
 // engine's own memory.
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "jobs/engine/stepped_job.h"
+#include "live/engine/stepped_job.h"
 #include "world/trace_event.h"
 
 namespace py = pybind11;

@@ -14,11 +14,11 @@
 #include "annotate/rasters/preview.h"
 #include "base/files/files.h"
 #include "base/geometry/angle.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "render/animator.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
 #include "world/scenario.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace.h"
 
 namespace throng {

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "metrics/bounds/run_bound.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/run.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace {
 

@@ -18,7 +18,7 @@
 
 #include "base/compute/quantile.h"
 #include "crowd/model.h"
-#include "crowd/validation/flow.h"
+#include "validation/flow.h"
 
 namespace throng::validation {
 namespace {

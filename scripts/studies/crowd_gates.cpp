@@ -1,5 +1,5 @@
-// Measures a pedestrian model in the scenes of crowd/validation/walking.h and
-// crowd/validation/flow.h, for fits and comparisons.
+// Measures a pedestrian model in the scenes of validation/walking.h and
+// validation/flow.h, for fits and comparisons.
 //
 //   crowd_gates MODEL [seeds=N] [only=NAME,...] [CONSTANT=VALUE ...] [PARAMETER=VALUE ...]
 //
@@ -31,8 +31,8 @@
 
 #include "base/error.h"
 #include "crowd/model.h"
-#include "crowd/validation/flow.h"
-#include "crowd/validation/walking.h"
+#include "validation/flow.h"
+#include "validation/walking.h"
 
 namespace throng::validation {
 namespace {

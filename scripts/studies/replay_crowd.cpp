@@ -8,7 +8,7 @@
 #include <span>
 
 #include "crowd/model.h"
-#include "crowd/validation/experiments/comparison.h"
+#include "validation/experiments/comparison.h"
 
 namespace throng::validation {
 namespace {

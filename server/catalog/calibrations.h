@@ -36,7 +36,7 @@ class Calibrations {
                const ConfinedChecks& confined)
       : folders_(folders), store_(store), state_(state), confined_(confined) {}
 
-  /// Queues a calibration (camera/calibration/request.h) with its files; durable when this returns.
+  /// Queues a calibration (calibration/request.h) with its files; durable when this returns.
   /// It counts as one of the owner's jobs. Throws InputError and QuotaError.
   jobs::JobRow submit(std::string_view request_json, const std::vector<Upload>& files,
                       const Quota& quota = {});

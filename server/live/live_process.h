@@ -1,4 +1,4 @@
-// The process of a live flight (jobs/live/session.h), as its service sees it.
+// The process of a live flight (live/flight/session.h), as its service sees it.
 #pragma once
 
 #include <filesystem>

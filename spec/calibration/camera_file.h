@@ -7,7 +7,7 @@
 //
 // "type", "version" and "skew" are optional. fx, fy, cx, cy and skew are in pixels; the center of
 // the top-left pixel is (0, 0). Readers ignore the additional members that a calibration writes
-// (camera/calibration/result.h).
+// (calibration/result.h).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

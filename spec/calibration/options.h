@@ -9,7 +9,7 @@
 
 namespace throng::calibrate {
 
-/// Options of fit() (camera/calibration/robust.h).
+/// Options of fit() (calibration/robust.h).
 struct FitOptions {
   /// Whether observations are rejected whose residual exceeds both kOutlierSigmas robust standard
   /// deviations and outlier_px.
@@ -25,7 +25,7 @@ struct FitOptions {
   std::function<bool()> should_continue = {};  ///< false: the solution is cancelled
 };
 
-/// Options of calibrate_intrinsics() (camera/calibration/intrinsics.h).
+/// Options of calibrate_intrinsics() (calibration/intrinsics.h).
 struct IntrinsicsOptions {
   Lens lens = Lens::brown5;
   bool choose_lens = false;  ///< fit every model and keep the one with the smallest BIC

@@ -1,4 +1,4 @@
-// A calibration request as a client writes it; camera/calibration/request.h carries it out.
+// A calibration request as a client writes it; calibration/request.h carries it out.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The names of the files of a calibration (camera/calibration/request.h).
+// The names of the files of a calibration (calibration/request.h).
 #pragma once
 
 namespace throng::calibrate {

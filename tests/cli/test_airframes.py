@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 THRONG = sys.argv.pop(1)
-ROBOTS = pathlib.Path(__file__).resolve().parents[1] / "world/imports/data/robots"
+ROBOTS = pathlib.Path(__file__).resolve().parents[1] / "places/imports/data/robots"
 PAPER_CASES = ("nearest_exit", "crowded_exit_blocked", "side_exit_blocked", "second_nearest")
 
 

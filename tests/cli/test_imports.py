@@ -104,7 +104,7 @@ class Imports(unittest.TestCase):
         throng(
             "scenario",
             "import",
-            "tests/world/imports/data/yard.sdf",
+            "tests/places/imports/data/yard.sdf",
             "-o",
             "mine",
             "--exit",
@@ -112,7 +112,7 @@ class Imports(unittest.TestCase):
             cwd=self.folder,
             code=2,
         )
-        world = "tests/world/imports/data/yard.sdf"
+        world = "tests/places/imports/data/yard.sdf"
         throng("scenario", "import", world, "-o", "mine", "--models", "no_models", cwd=self.folder, code=2)
         self.assertFalse((self.folder / "mine").exists())
 

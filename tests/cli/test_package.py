@@ -154,8 +154,8 @@ class Package(unittest.TestCase):
         run("cmake", "--install", BUILD, "--prefix", prefix, "--component", "program")
         clean = {name: value for name, value in os.environ.items() if not name.startswith("THRONG_")}
         self.assertIn("city_square/nearest_exit", run(prefix / "bin/throng", "scenarios", env=clean))
-        world = ROOT / "tests/world/imports/data/yard.sdf"  # imported by a program beside the installed one
-        models = ROOT / "tests/world/imports/data/models"
+        world = ROOT / "tests/places/imports/data/yard.sdf"  # imported by a program beside the installed one
+        models = ROOT / "tests/places/imports/data/models"
         run(
             prefix / "bin/throng",
             "scenario",

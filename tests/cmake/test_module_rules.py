@@ -101,6 +101,19 @@ class Rules(unittest.TestCase):
     def test_project_that_keeps_the_rules(self):
         self.accepted()
 
+    def test_top_level_folders_that_include_each_other(self):
+        self.refused(
+            {
+                "CMakeLists.txt": PROJECT["CMakeLists.txt"].replace("walls house)", "walls house walls/roof)"),
+                "house/CMakeLists.txt": HOUSE.replace("house SOURCES", "house PUBLIC door.h SOURCES"),
+                "house/door.h": "#pragma once\n",
+                "walls/roof/CMakeLists.txt": 'throng_module(walls/roof SOURCES roof.cpp MODULES house)\nthrong_folder(. "Roofs.")\n',
+                "walls/roof/roof.cpp": '#include "house/door.h"\n',
+            },
+            "house/house.cpp:2: includes walls/stones/stone.h, but 'walls' includes 'house', too (walls/roof/roof.cpp:1),"
+            " and a top-level folder is a floor",
+        )
+
     def test_private_header(self):
         self.refused(
             {"house/house.cpp": PROJECT["house/house.cpp"] + '\n  #  include "walls/brick.h"  // inner\n'},

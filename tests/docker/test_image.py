@@ -100,8 +100,8 @@ class Image(ImageTest):
             "camera.json",
         )
         self.assertAlmostEqual(json.loads((self.data / "camera.json").read_text())["fx"], 800, 2)
-        shutil.copy(ROOT / "tests/world/imports/data/yard.sdf", self.data)
-        shutil.copytree(ROOT / "tests/world/imports/data/models", self.data / "models")
+        shutil.copy(ROOT / "tests/places/imports/data/yard.sdf", self.data)
+        shutil.copytree(ROOT / "tests/places/imports/data/models", self.data / "models")
         self.run_in_it("throng", "scenario", "import", "yard.sdf", "-o", "mine", "--models", "models")
 
     def test_the_service_makes_datasets_and_calibrations(self):

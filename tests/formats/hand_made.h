@@ -11,7 +11,6 @@
 #include "base/files/files.h"
 #include "formats/dataset/mask.h"
 #include "formats/export/exporter.h"
-#include "formats/validate/findings.h"
 #include "tests/world/temporary_folder.h"
 
 namespace throng::formats::hand_made {
@@ -120,18 +119,6 @@ class Export {
   throng::testing::TemporaryFolder folder_;
   DatasetInfo info_;
 };
-
-/// Findings of checks as "rule record what".
-inline std::vector<std::string> found_by(const std::function<void(Findings&)>& check) {
-  Validation validation;
-  Findings findings(validation);
-  check(findings);
-  std::vector<std::string> found;
-  for (const Finding& finding : validation.findings) {
-    found.push_back(finding.rule + " " + finding.record + " " + finding.what);
-  }
-  return found;
-}
 
 inline bool any_with(const std::vector<std::string>& found, const std::string& words) {
   return std::any_of(found.begin(), found.end(),

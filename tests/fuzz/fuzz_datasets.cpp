@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "check/validate.h"
 #include "formats/export/exporter.h"
 #include "formats/merge.h"
-#include "formats/validate/validate.h"
 #include "jobs/queue/dataset/manifest.h"
 #include "tests/fuzz/fuzz_folder.h"
 

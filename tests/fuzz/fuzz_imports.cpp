@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "metrics/trajectories/trajectory_file.h"
+#include "places/imports/imports.h"
 #include "tests/fuzz/fuzz_folder.h"
-#include "world/imports/imports.h"
 
 namespace throng::imports::fuzz {
 namespace {

@@ -14,6 +14,8 @@
 
 #include "base/files/resources.h"
 #include "base/geometry/polygon.h"
+#include "places/scenarios/blueprint/generated.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "render/frame.h"
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
@@ -21,8 +23,6 @@
 #include "render/scenery/rubble.h"
 #include "render/scenery/scenery.h"
 #include "world/scenario.h"
-#include "world/scenarios/blueprint/generated.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::render {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/files/files.h"
 #include "tests/base/packed.h"
-#include "tests/world/scenarios/yard.h"
+#include "tests/places/scenarios/yard.h"
 
 namespace throng::server {
 

@@ -6,12 +6,12 @@
 
 #include "base/files/files.h"
 #include "base/files/resources.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/guidance_loop.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/run.h"
 #include "tests/sim/missions.h"
 #include "tests/world/temporary_folder.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace.h"
 
 namespace throng::sim {

@@ -8,12 +8,12 @@
 #include <functional>
 
 #include "base/files/files.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/recording/trace_recorder.h"
 #include "sim/run.h"
 #include "tests/world/temporary_folder.h"
 #include "world/scenario.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::sim {
 namespace {

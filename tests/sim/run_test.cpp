@@ -11,9 +11,9 @@
 
 #include "base/error.h"
 #include "base/files/hash.h"
-#include "tests/world/scenarios/square.h"
+#include "places/scenarios/blueprint/load_scenario.h"
+#include "tests/places/scenarios/square.h"
 #include "tests/world/temporary_folder.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace.h"
 
 namespace throng::sim {

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "jobs/pipeline/pipeline.h"
+#include "places/scenarios/check/check.h"
 #include "sim/people/people_watch.h"
 #include "sim/run.h"
 #include "world/alarm.h"
-#include "world/scenarios/check/check.h"
 
 namespace throng::jobs {
 

@@ -5,13 +5,13 @@
 #include "base/error.h"
 #include "base/files/confine.h"
 #include "crowd/simulation.h"
+#include "places/scenarios/blueprint/load_scenario.h"
+#include "places/scenarios/check/check.h"
 #include "render/props/mesh_file.h"
 #include "sim/run.h"
 #include "spec/scenarios/scenario_summary.h"
 #include "world/scenario.h"
 #include "world/scenario_id.h"
-#include "world/scenarios/blueprint/load_scenario.h"
-#include "world/scenarios/check/check.h"
 
 namespace throng::jobs {
 

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "annotate/frame_writers.h"
+#include "check/ground_truth_checks.h"
 #include "formats/export/exporter.h"
-#include "formats/validate/ground_truth_checks.h"
 #include "jobs/pipeline/frames/run_writers.h"
 #include "spec/job/spec.h"
 

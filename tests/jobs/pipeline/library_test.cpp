@@ -9,9 +9,9 @@
 #include "base/files/files.h"
 #include "base/files/resources.h"
 #include "jobs/pipeline/checks/resolve.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "spec/job/spec.h"
 #include "world/scenario.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::jobs {
 namespace {

@@ -16,10 +16,10 @@
 #include "jobs/queue/dataset/folder.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits/exits.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "spec/job/spec.h"
 #include "tests/jobs/yard.h"
 #include "world/scenario.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::jobs {
 namespace {

@@ -11,9 +11,9 @@
 #include "base/files/resources.h"
 #include "jobs/study/outcome.h"
 #include "metrics/evacuation.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/run.h"
 #include "tests/world/temporary_folder.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::study {
 namespace {

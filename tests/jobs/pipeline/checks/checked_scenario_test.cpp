@@ -9,11 +9,11 @@
 
 #include "base/files/resources.h"
 #include "jobs/pipeline/pipeline.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/planning/aimed_start.h"
 #include "sim/run.h"
 #include "spec/job/plan.h"
 #include "spec/job/spec.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::jobs {
 namespace {

@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "jobs/pipeline/pipeline.h"
+#include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/run.h"
 #include "tests/jobs/yard.h"
-#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::jobs {
 namespace {

@@ -1,0 +1,45 @@
+// Poses of people during a live flight. render::Animator plans each walk from a complete trace;
+// here, strides follow from the distance walked so far, because the future is not known.
+#pragma once
+
+#include <vector>
+
+#include "live/loop/moment.h"
+#include "render/animator.h"
+#include "skinning/animate/motion.h"
+#include "skinning/appearance.h"
+#include "skinning/population.h"
+#include "world/trace.h"
+
+namespace throng::live {
+
+/// Whether agents with this role are people who are shown.
+bool is_rendered(world::AgentRole role);
+
+/// Heights of a run's people with their shoes (m), per agent.
+std::vector<double> statures_m(const world::TraceHeader& header,
+                               const skinning::Population& population,
+                               const skinning::Styling& styling);
+
+/// Computes the poses of a run's people; call it with moments in the order of time.
+class PosedPeople {
+ public:
+  /// Assigns characters to the people of a run. The population must outlive this object.
+  PosedPeople(const world::TraceHeader& header, std::uint64_t seed,
+              const skinning::Population& population, const skinning::Styling& styling);
+
+  /// The scene with people and hazards at a time within the moment's step.
+  render::Scene scene_at(const Moment& moment, double time_s);
+
+ private:
+  skinning::PoseBlend pose_of(std::size_t agent, double meters, double speed_mps,
+                              std::uint8_t flags, double time_s);
+
+  const skinning::Population& population_;
+  skinning::ClipSet clips_;
+  std::vector<world::AgentRole> roles_;
+  std::vector<skinning::Appearance> looks_;  ///< per agent
+  std::vector<double> fell_at_s_;            ///< per agent; negative: has not fallen
+};
+
+}  // namespace throng::live

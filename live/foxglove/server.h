@@ -1,0 +1,100 @@
+// A server of the WebSocket protocol foxglove.websocket.v1: channels that clients subscribe to,
+// channels on which clients publish, parameters and services.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "live/foxglove/client_messages.h"
+
+namespace throng::foxglove {
+
+/// A channel of the server. Messages are CDR, schemas are in the text of ros2msg.
+struct Channel {
+  std::string topic;
+  std::string schema_name;
+  std::string schema;
+  bool is_image = false;    ///< the first to be dropped for slow clients
+  bool is_latched = false;  ///< those who subscribe get the last message
+};
+
+/// A service. Requests and responses are JSON, described by JSON Schemas.
+struct Service {
+  std::string name;
+  std::string type;
+  std::string request_schema;
+  std::string response_schema;
+};
+
+/// Severity of a status message.
+enum class Level : std::uint8_t { info, warning, error };
+
+/// Answers a call of a service, once: a problem, or else the response. From any thread, while the
+/// server exists.
+using ServiceAnswer = std::function<void(const std::string& problem, const nlohmann::json&)>;
+
+/// The program behind the server. All are called on the server's thread; an InputError is reported
+/// to the client.
+struct Hooks {
+  /// Checks a channel on which a client wants to publish.
+  std::function<void(const ClientChannel&)> check_channel;
+  std::function<void(const ClientChannel&, std::string_view bytes)> take_message;
+  std::function<std::vector<Parameter>()> parameters;  ///< all of them
+  std::function<void(const std::vector<Parameter>&)> set_parameters;
+  /// `service` is an index.
+  std::function<void(std::size_t service, const nlohmann::json& request, ServiceAnswer)> call;
+};
+
+/// Address of the server, and those who may connect.
+struct ServerOptions {
+  std::string name = "throng";       ///< shown to users
+  std::string host = "127.0.0.1";    ///< an address of this machine
+  std::uint16_t port = 8765;         ///< 0: a free one
+  std::vector<std::string> origins;  ///< web pages that may connect besides those of this machine
+                                     ///< and of Foxglove; "*": all
+};
+
+/// Whether a page of this origin may connect: none (programs), this machine's, Foxglove's, and the
+/// given ones. Any page that a user opens could otherwise steer.
+bool is_allowed_origin(std::string_view origin, const std::vector<std::string>& more);
+
+/// Safe to use from many threads. No member waits for clients.
+class Server {
+ public:
+  /// Listens, but answers nobody before start(). Throws InputError for a wrong host and
+  /// EnvironmentError if the port is taken.
+  Server(const ServerOptions& options, std::vector<Channel> channels, std::vector<Service> services,
+         Hooks hooks);
+  /// Ends all connections: clients get what they wait for unless that takes longer than a second.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// Calls the hooks from now on. Once.
+  void start();
+
+  std::uint16_t port() const;
+  /// Whether a client has subscribed to the channel with this index.
+  bool is_subscribed(std::size_t channel) const;
+  /// Sends a message, stamped with a time from the run's start, to those who have subscribed. It is
+  /// dropped, unless it is latched, where the server's thread is too far behind.
+  void publish(std::size_t channel, std::uint64_t time_ns, std::string bytes);
+  /// Tells the time to all clients.
+  void tell_time(std::uint64_t time_ns);
+  /// Sends those parameters that have changed to those who have subscribed to them.
+  void refresh_parameters();
+  /// Sends a status to all clients.
+  void tell(Level level, const std::string& text);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace throng::foxglove
