@@ -13,7 +13,7 @@
 #include "annotate/people/exit_view.h"
 #include "annotate/people/hazard_view.h"
 #include "annotate/people/labels.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "spec/annotate/count_areas.h"
 #include "spec/annotate/ground_truth.h"
 

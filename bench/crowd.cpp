@@ -13,8 +13,8 @@
 
 #include "base/files/resources.h"
 #include "crowd/description/builder.h"
-#include "crowd/model.h"
 #include "crowd/simulation.h"
+#include "crowd/state/model.h"
 
 namespace throng::crowd {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "base/files/resources.h"
 #include "places/scenarios/blueprint/load_scenario.h"
+#include "sim/fleet/flight.h"
 #include "sim/planning/plan.h"
 #include "sim/run.h"
-#include "sim/vehicle/flight.h"
 #include "world/scenario.h"
 
 namespace throng {

@@ -5,7 +5,8 @@ find_program(THRONG_PYTHON python3 REQUIRED)
 set(THRONG_MODULE_RULES "${CMAKE_CURRENT_LIST_DIR}/../scripts/module_rules.py")
 
 # throng_folder(FOLDER PURPOSE [USES folder...]): a folder of the module whose CMakeLists.txt this is, what it is for, and
-# the folders declared before it whose headers it includes. Every folder is declared, the module's own one (".") first.
+# the folders declared before it whose headers it includes. Every folder is declared, the module's own one (".") above those
+# that it includes and below those that include it.
 function(throng_folder)
 endfunction()
 

@@ -10,7 +10,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/JoinSources.cmake")
 set(THRONG_OPTIMIZED_MODULES base crowd camera sim skinning render annotate)
 set(THRONG_SERVING_MODULES spec jobs/queue jobs/bucket live/foxglove live/loop live/flight jobs/study server cli/common cli/import cli cli/more)
 # These are optimized with sanitizers too: their tests look at every pixel.
-set(THRONG_PIXEL_MODULES annotate formats check)
+set(THRONG_PIXEL_MODULES annotate formats checks)
 # The modules that the fuzz targets (tests/fuzz) cover.
 set(THRONG_FUZZED_MODULES base crowd/description world crowd places/imports spec metrics)
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "crowd/navigation/elevation.h"
 #include "crowd/navigation/obstacle_sets.h"
 #include "crowd/population/agent_groups.h"
 #include "crowd/population/profile.h"

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "crowd/behavior.h"
-#include "crowd/crowd.h"
 #include "crowd/elements/attributes.h"
 #include "crowd/elements/element.h"
 #include "crowd/elements/menge_random.h"
-#include "crowd/model.h"
+#include "crowd/state/behavior.h"
+#include "crowd/state/crowd.h"
+#include "crowd/state/model.h"
 
 namespace throng::crowd {
 

@@ -7,17 +7,19 @@
 #include <utility>
 
 #include "base/error.h"
-#include "crowd/behavior.h"
+#include "crowd/behavior/load_behavior.h"
 #include "crowd/behavior/machine.h"
-#include "crowd/crowd.h"
 #include "crowd/description/menge_files/read.h"
 #include "crowd/elements/element.h"
-#include "crowd/model.h"
 #include "crowd/motion/bodies.h"
 #include "crowd/motion/motion.h"
 #include "crowd/motion/separation.h"
+#include "crowd/navigation/elevation.h"
 #include "crowd/scene.h"
 #include "crowd/spatial/grid.h"
+#include "crowd/state/behavior.h"
+#include "crowd/state/crowd.h"
+#include "crowd/state/model.h"
 
 namespace throng::crowd {
 

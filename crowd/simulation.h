@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "crowd/agents/types.h"
 #include "crowd/description/description.h"
-#include "crowd/types.h"
 
 namespace throng::crowd {
 

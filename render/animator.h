@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "render/scene.h"
+#include "render/props/scene.h"
 #include "skinning/animate/plan.h"
 #include "skinning/population.h"
 #include "world/trace.h"

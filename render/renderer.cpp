@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "render/frame/view.h"
 #include "render/gl/context.h"
 #include "render/gl/gl_objects.h"
 #include "render/gl/multisample_target.h"
@@ -11,7 +12,6 @@
 #include "render/gl/shadow_map.h"
 #include "render/gl/surface_target.h"
 #include "render/gl/target.h"
-#include "render/lens/metering.h"
 #include "render/passes/airframe_pass.h"
 #include "render/passes/contact_pass.h"
 #include "render/passes/prop_pass.h"
@@ -24,10 +24,10 @@
 #include "render/people/people_pass.h"
 #include "render/scenery/lamps.h"
 #include "render/scenery/lighting.h"
+#include "render/scenery/metering.h"
 #include "render/scenery/surface_classes.h"
 #include "render/truth/objects_in_view.h"
 #include "render/truth/people_coverage.h"
-#include "render/view.h"
 
 namespace throng::render {
 

@@ -9,10 +9,10 @@
 
 #include "base/compute/stage_clock.h"
 #include "camera/camera.h"
-#include "render/frame.h"
-#include "render/pixel_weights.h"
+#include "render/frame/frame.h"
+#include "render/frame/pixel_weights.h"
+#include "render/props/scene.h"
 #include "render/props/vehicles.h"
-#include "render/scene.h"
 #include "skinning/population.h"
 #include "spec/render/environment.h"
 #include "spec/render/quality.h"
@@ -80,7 +80,7 @@ class Renderer {
              const DrawChoice& choice = {});
 
   /// The gain of the camera's automatic exposure for this view, from a small image of the scenario
-  /// without people (render/lens/metering.h). Supports any lens.
+  /// without people (render/scenery/metering.h). Supports any lens.
   double metered_gain(const Scene& scene, const camera::Camera& camera);
 
   /// The vehicles that may be in Frame::objects; empty unless RenderOptions::vehicles.

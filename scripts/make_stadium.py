@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the stadium of scenarios/stadium_exit: its four stands, goals, dugouts and floodlights.
 
-usage: scripts/make_stadium.py    (writes scenarios/stadium_exit/stadium.obj and stadium.mtl)
+usage: scripts/make_stadium.py    (writes scenarios/stadium_exit/stadium.obj and stadium.mtl, as every configuration of the build does)
 
 World coordinates are x east, y north, z up, in meters; the file's are y up. The crowd's obstacles are in
 everyday.blueprint.json and must agree with SOUTH_BLOCKS.

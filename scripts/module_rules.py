@@ -16,8 +16,9 @@ Readers of other people's datasets open files by base/files/untrusted_folders.h 
 
 A top-level folder is a floor: no two of them include each other.
 
-A module declares all folders in it by throng_folder(), its own one ("."), too. A file in one may include its own folder,
-the module's own (the interface, and what all share) and those that the folder USES, which precede it.
+A module declares all folders in it by throng_folder(), its own one ("."), too. A file in one may include its own folder
+and those that the folder USES, which precede it. The module's own folder is an interface below the folders that follow it,
+which may include it, and a façade above those that precede it, which it may include: neither needs USES.
 """
 import dataclasses
 import functools
@@ -230,9 +231,16 @@ class Check:
         module = self.of.module_of(path)
         folders = self.of.modules[module].folders if module else {}
         here, there = os.path.dirname(path), os.path.dirname(header)
-        if not folders or here == there or module in (here, there) or there not in folders or here not in folders:
+        if not folders or here == there or there not in folders or here not in folders:
             return
-        if there not in folders[here].uses:
+        if module in (here, there):
+            order = list(folders)
+            if order.index(there) > order.index(here):
+                self.violations.append(
+                    f"{path}:{line}: includes {header}, but folder '{here}' precedes '{there}' in {module}/CMakeLists.txt: the "
+                    "own folder of a module is below those that follow it and above those that precede it"
+                )
+        elif there not in folders[here].uses:
             self.violations.append(
                 f"{path}:{line}: includes {header}, but folder '{here}' does not use '{there}' (USES in {module}/CMakeLists.txt)"
             )

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "sim/fleet/flight.h"
 #include "sim/people/crowd_source.h"
 #include "sim/policies/planned_drone.h"
 #include "sim/recording/crowd_recorder.h"
 #include "sim/sensors/perception.h"
-#include "sim/vehicle/flight.h"
 
 namespace throng::sim {
 

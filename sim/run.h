@@ -10,22 +10,13 @@
 #include <vector>
 
 #include "base/error.h"
-#include "crowd/simulation.h"
-#include "sim/run_observer.h"
+#include "sim/people/load_people.h"
+#include "sim/recording/run_observer.h"
 #include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
 namespace throng::sim {
-
-/// The pedestrian model of a run: that of `spec`, else that of the scenario, else `orca` in a
-/// `compat` mode and `ttc` otherwise.
-std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec);
-
-/// Loads the people of a run, to be counted and found where they start: prepare_to_step() makes
-/// them the crowd of the run. Throws as crowd::Simulation's constructor.
-crowd::Simulation load_people(const world::Scenario& scenario, std::uint64_t seed,
-                              const CrowdSpec& spec);
 
 /// Receives the simulated seconds so far and in total.
 using RunProgress = std::function<void(double done_s, double total_s)>;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "sim/fleet/flight.h"
 #include "sim/guidance_loop.h"
 #include "sim/people/crowd_source.h"
 #include "sim/people/prop_watch.h"
@@ -20,7 +21,6 @@
 #include "sim/planning/separation.h"
 #include "sim/recording/crowd_recorder.h"
 #include "sim/run.h"
-#include "sim/vehicle/flight.h"
 #include "sim/vehicle/hold_warnings.h"
 
 namespace throng::sim {

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "crowd/simulation.h"
+#include "sim/fleet/pilot.h"
 #include "sim/policies/planned_drone.h"
-#include "sim/run_observer.h"
-#include "sim/vehicle/pilot.h"
+#include "sim/recording/run_observer.h"
 #include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 

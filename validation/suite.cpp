@@ -9,7 +9,7 @@
 
 #include "base/compute/run_items.h"
 #include "base/error.h"
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 
 namespace throng::validation {
 

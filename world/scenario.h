@@ -137,17 +137,6 @@ struct Scenario {
   bool has_crowd() const { return built_crowd || (!scene_file.empty() && !behavior_file.empty()); }
 };
 
-/// Reads and checks a scenario file. `id` becomes Scenario::id. A file that `extends` another file
-/// of its folder contains only the differences: fields of objects replace those of the same name,
-/// and other values replace the whole value (RFC 7396). Throws InputError (file, JSON pointer,
-/// found, expected) for invalid content and EnvironmentError if the file cannot be read.
-Scenario load_scenario(const std::filesystem::path& file, std::string id);
-
-/// Checks a scenario document in memory that extends nothing. `file` is used in messages, and its
-/// folder is that of the files that the document names. Throws like load_scenario().
-Scenario parse_scenario(const nlohmann::json& document, const std::filesystem::path& file,
-                        std::string id);
-
 /// Removes scattered props: each stays with probability `share` (0 to 1), determined by the seed.
 /// The props that stay at a smaller share are a subset of those that stay at a larger one.
 void thin_out(Scenario& scenario, double share, std::uint64_t seed);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "render/pixel_mask.h"
+#include "render/frame/pixel_mask.h"
 
 namespace throng::annotate {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <map>
 
-#include "annotate/instance_id.h"
+#include "annotate/people/instance_id.h"
 #include "annotate/people/keypoints.h"
 #include "annotate/people/lookalikes.h"
 #include "annotate/people/visible_mask.h"

@@ -3,7 +3,7 @@
 
 #include "annotate/people/contrast.h"
 #include "annotate/people/labels.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::annotate {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "annotate/ground_polygon.h"
+#include "annotate/people/ground_polygon.h"
 #include "base/error.h"
 #include "metrics/basis/control_zone.h"
 #include "world/trace.h"

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "annotate/ground_polygon.h"
 #include "annotate/people/exit_view.h"
+#include "annotate/people/ground_polygon.h"
 #include "spec/annotate/outlines.h"
 
 namespace throng::annotate {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "annotate/people/labels.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::annotate {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "annotate/people/labels.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::annotate {
 

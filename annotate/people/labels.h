@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::annotate {
 

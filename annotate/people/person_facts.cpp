@@ -14,8 +14,8 @@
 #include "base/error.h"
 #include "base/text/words.h"
 #include "render/animator.h"
-#include "skinning/clothes.h"
 #include "skinning/items.h"
+#include "skinning/wardrobe/clothes.h"
 
 namespace throng::annotate {
 

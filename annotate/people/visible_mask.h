@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "render/frame.h"
-#include "render/pixel_mask.h"
+#include "render/frame/frame.h"
+#include "render/frame/pixel_mask.h"
 
 namespace throng::annotate {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "annotate/instance_id.h"
+#include "annotate/people/instance_id.h"
 #include "base/error.h"
 #include "base/files/deflate.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::annotate {
 

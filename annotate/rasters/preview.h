@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "annotate/people/labels.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::annotate {
 

@@ -12,7 +12,7 @@
 
 #include "annotate/people/coco.h"
 #include "annotate/people/decimals.h"
-#include "annotate/trajectories.h"
+#include "annotate/rasters/trajectories.h"
 #include "base/error.h"
 #include "base/geometry/polygon.h"
 #include "spec/annotate/table_columns.h"

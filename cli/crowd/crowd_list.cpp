@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "crowd/vocabulary.h"
+#include "crowd/project/vocabulary.h"
 
 namespace throng::cli {
 

@@ -1,6 +1,6 @@
 #include "cli/crowd/crowd_options.h"
 
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 
 namespace throng::cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "crowd/project.h"
+#include "crowd/project/project.h"
 
 namespace throng::cli {
 

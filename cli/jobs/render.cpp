@@ -15,8 +15,8 @@
 #include "jobs/queue/trace_seal.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/job/spec.h"
+#include "world/fields/trace_scenario.h"
 #include "world/trace.h"
-#include "world/trace_scenario.h"
 
 namespace throng::cli {
 

@@ -1,5 +1,5 @@
 // throng validate: does a dataset keep what its formats promise?
-#include "check/validate.h"
+#include "checks/validate.h"
 
 #include <fmt/core.h>
 
@@ -23,8 +23,8 @@ void validate(const std::string& dataset) {
     throw InputError(
         {dataset, "", "a file", "the folder of a finished dataset; an archive is unpacked first"});
   }
-  const formats::Validation validation = formats::validate_dataset(dataset);
-  for (const formats::Finding& finding : validation.findings) {
+  const checks::Validation validation = checks::validate_dataset(dataset);
+  for (const checks::Finding& finding : validation.findings) {
     fmt::print("{}: {}{}{} [{}]\n", finding.file, finding.record,
                finding.record.empty() ? "" : ": ", finding.what, finding.rule);
   }

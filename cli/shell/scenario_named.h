@@ -7,9 +7,9 @@
 #include "cli/shell/document_kind.h"
 #include "cli/shell/input_file.h"
 #include "places/scenarios/blueprint/load_scenario.h"
+#include "world/fields/trace_scenario.h"
 #include "world/scenario.h"
 #include "world/scenario_id.h"
-#include "world/trace_scenario.h"
 
 namespace throng::cli {
 

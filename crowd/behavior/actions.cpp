@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "crowd/behavior.h"
 #include "crowd/behavior/panic.h"
 #include "crowd/behavior/saved.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "crowd/behavior.h"
 #include "crowd/behavior/machine.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -1,4 +1,4 @@
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "crowd/behavior.h"
 #include "crowd/behavior/panic.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

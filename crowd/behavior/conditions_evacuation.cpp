@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -1,5 +1,5 @@
-#include "crowd/behavior.h"
 #include "crowd/elements/shape_attributes.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

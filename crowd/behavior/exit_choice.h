@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "crowd/behavior.h"
 #include "crowd/navigation/navigation.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

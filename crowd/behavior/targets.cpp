@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

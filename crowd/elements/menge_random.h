@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "crowd/types.h"
+#include "crowd/agents/types.h"
 
 namespace throng::crowd {
 

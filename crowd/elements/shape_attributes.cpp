@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "crowd/agents.h"
+#include "crowd/agents/agents.h"
 
 namespace throng::crowd {
 

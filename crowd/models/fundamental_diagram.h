@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "crowd/behavior.h"
-#include "crowd/spatial/neighborhood.h"
+#include "crowd/state/behavior.h"
+#include "crowd/state/neighborhood.h"
 
 namespace throng::crowd {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "base/geometry/polygon.h"
-#include "crowd/model.h"
 #include "crowd/models/disc_lanes.h"
 #include "crowd/models/lane_batch.h"
 #include "crowd/models/local_model.h"
+#include "crowd/state/model.h"
 
 namespace throng::crowd {
 

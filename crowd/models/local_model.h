@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "base/compute/random.h"
-#include "crowd/model.h"
-#include "crowd/spatial/neighborhood.h"
+#include "crowd/state/model.h"
+#include "crowd/state/neighborhood.h"
 
 namespace throng::crowd {
 

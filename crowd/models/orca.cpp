@@ -2,12 +2,12 @@
 #include <limits>
 #include <optional>
 
-#include "crowd/model.h"
 #include "crowd/models/orca_batch.h"
 #include "crowd/models/orca_lines.h"
 #include "crowd/models/pace.h"
 #include "crowd/models/single_file.h"
-#include "crowd/spatial/neighborhood.h"
+#include "crowd/state/model.h"
+#include "crowd/state/neighborhood.h"
 
 namespace throng::crowd {
 

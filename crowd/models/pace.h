@@ -5,7 +5,7 @@
 
 #include "base/compute/instruction_set.h"
 #include "crowd/models/lane_batch.h"
-#include "crowd/spatial/neighborhood.h"
+#include "crowd/state/neighborhood.h"
 
 namespace throng::crowd {
 

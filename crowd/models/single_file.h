@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "crowd/spatial/neighborhood.h"
+#include "crowd/state/neighborhood.h"
 
 namespace throng::crowd {
 

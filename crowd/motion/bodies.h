@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "crowd/crowd.h"
 #include "crowd/spatial/grid.h"
+#include "crowd/state/crowd.h"
 
 namespace throng::crowd {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "crowd/crowd.h"
+#include "crowd/state/crowd.h"
 
 namespace throng::crowd {
 

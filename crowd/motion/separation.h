@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/compute/parallel.h"
-#include "crowd/crowd.h"
 #include "crowd/spatial/grid.h"
+#include "crowd/state/crowd.h"
 
 namespace throng::crowd {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowd/agents.h"
+#include "crowd/agents/agents.h"
 #include "crowd/elements/shapes.h"
 
 namespace throng::crowd {

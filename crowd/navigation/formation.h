@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "crowd/behavior.h"
 #include "crowd/elements/text_file.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

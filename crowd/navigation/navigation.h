@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

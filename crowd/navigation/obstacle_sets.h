@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "crowd/crowd.h"
 #include "crowd/elements/registry.h"
+#include "crowd/state/crowd.h"
 
 namespace throng::crowd {
 

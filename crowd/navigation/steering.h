@@ -1,7 +1,7 @@
 // Functions for velocity components: target points in goals, and walking straight to a point.
 #pragma once
 
-#include "crowd/behavior.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

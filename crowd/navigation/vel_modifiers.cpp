@@ -1,6 +1,6 @@
-#include "crowd/behavior.h"
 #include "crowd/models/fundamental_diagram.h"
 #include "crowd/navigation/navigation.h"
+#include "crowd/state/behavior.h"
 
 namespace throng::crowd {
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "crowd/crowd.h"
 #include "crowd/elements/menge_random.h"
 #include "crowd/elements/registry.h"
 #include "crowd/population/profile.h"
 #include "crowd/population/social_groups.h"
-#include "crowd/process.h"
+#include "crowd/state/crowd.h"
+#include "crowd/state/process.h"
 
 namespace throng::crowd {
 

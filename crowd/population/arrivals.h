@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "crowd/elements/registry.h"
-#include "crowd/process.h"
+#include "crowd/state/process.h"
 
 namespace throng::crowd {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "crowd/agents.h"
+#include "crowd/agents/agents.h"
 #include "crowd/navigation/nav_mesh_file.h"
 #include "crowd/navigation/obstacle_sets.h"
 #include "crowd/population/scatter.h"

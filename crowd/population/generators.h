@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "crowd/crowd.h"
 #include "crowd/elements/menge_random.h"
 #include "crowd/elements/registry.h"
+#include "crowd/state/crowd.h"
 
 namespace throng::crowd {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/compute/instruction_set.h"
-#include "crowd/agents.h"
+#include "crowd/agents/agents.h"
 
 namespace throng::crowd {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "crowd/agents.h"
+#include "crowd/agents/agents.h"
 #include "crowd/spatial/grid.h"
 
 namespace throng::crowd {

@@ -13,6 +13,7 @@
 #include "formats/card.h"
 #include "formats/export/exporter.h"
 #include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "jobs/queue/dataset/manifest.h"
 #include "jobs/queue/dataset/publication.h"
 #include "jobs/queue/failed_runs.h"

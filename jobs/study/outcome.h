@@ -45,7 +45,8 @@ Outcome outcome_from(const nlohmann::json& value);
 /// Observes a run for its outcome; ends the run once all people are out.
 class OutcomeObserver : public sim::RunObserver {
  public:
-  /// The scenario must outlive this object. `model` is the run's pedestrian model (crowd/model.h).
+  /// The scenario must outlive this object. `model` is the run's pedestrian model
+  /// (crowd/state/model.h).
   OutcomeObserver(const world::Scenario& scenario, world::Alarm alarm,
                   metrics::ReferenceSpec reference, std::string model);
   ~OutcomeObserver() override;

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/json/json_text.h"
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 
 namespace throng::study {
 

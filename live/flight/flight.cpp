@@ -10,7 +10,7 @@
 
 #include "base/files/hash.h"
 #include "base/json/problem_json.h"
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "live/flight/replay_job.h"
 #include "sim/recording/gimbal_setpoints.h"
 #include "sim/recording/pilot_log.h"

@@ -5,7 +5,6 @@
 #include "annotate/rasters/preview.h"
 #include "base/geometry/angle.h"
 #include "jobs/pipeline/frames/gimbal.h"
-#include "jobs/pipeline/pipeline.h"
 #include "sim/sensors/gimbal.h"
 #include "spec/job/environment.h"
 

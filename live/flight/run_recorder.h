@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "live/loop/moment.h"
-#include "sim/run_observer.h"
+#include "sim/recording/run_observer.h"
 #include "world/trace.h"
 
 namespace throng::live {

@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/json/json_text.h"
-#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/runs/job_scenario.h"
 #include "jobs/queue/workers/worker_process.h"
 #include "live/flight/flight.h"
 #include "live/flight/flight_recording.h"

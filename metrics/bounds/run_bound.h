@@ -31,7 +31,7 @@ enum class Knowledge {
 
 /// Parameters of lower_bound().
 struct BoundSpec {
-  std::string model;        ///< pedestrian model (crowd/model.h), for the doors' capacity
+  std::string model;        ///< pedestrian model (crowd/state/model.h), for the doors' capacity
   double max_radius_m = 0;  ///< max radius of all people, by which doors are widened
   Knowledge knowledge = Knowledge::as_noticed;
 };

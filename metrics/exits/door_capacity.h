@@ -12,9 +12,9 @@ struct DoorCapacity {
 };
 
 /// The capacity of a door: the 99.9 % quantile of the saturated flow of a pedestrian model
-/// (crowd/model.h; table and source in the .cpp), as an envelope over windows of 1 s and more.
-/// Interpolated between the measured widths, proportional to the width above the largest, constant
-/// below the smallest. Unknown models count as `ttc`, the default model.
+/// (crowd/state/model.h; table and source in the .cpp), as an envelope over windows of 1 s and
+/// more. Interpolated between the measured widths, proportional to the width above the largest,
+/// constant below the smallest. Unknown models count as `ttc`, the default model.
 DoorCapacity door_capacity(std::string_view model, double width_m);
 
 }  // namespace throng::metrics

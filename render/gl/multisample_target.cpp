@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "render/frame/view.h"
 #include "render/gl/target.h"
-#include "render/view.h"
 
 namespace throng::render {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/gl/gl_objects.h"
 
 namespace throng::render {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "render/view.h"
+#include "render/frame/view.h"
 
 namespace throng::render {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "render/view.h"
+#include "render/frame/view.h"
 
 namespace throng::render {
 

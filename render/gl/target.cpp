@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "render/view.h"
+#include "render/frame/view.h"
 
 namespace throng::render {
 

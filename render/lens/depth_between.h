@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::render {
 

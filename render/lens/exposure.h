@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/lens/lens.h"
 #include "spec/camera/camera_spec.h"
 
@@ -48,7 +48,7 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 ///
 /// `neighbors` has the times of the next and the previous frame if flow is requested; flow leads
 /// from each row's time by the same interval. The gain is that of the camera's metering at `time_s`
-/// (render/lens/metering.h), or 1 if `is_metered` is false.
+/// (render/scenery/metering.h), or 1 if `is_metered` is false.
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
                const camera::Exposure& exposure, const NeighborTimes& neighbors = {},
                bool is_metered = false);

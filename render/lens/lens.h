@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/lens/lens_map.h"
 #include "render/people/person_geometry.h"
 #include "render/renderer.h"

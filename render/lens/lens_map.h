@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "render/frame/pixel_weights.h"
 #include "render/people/person_geometry.h"
-#include "render/pixel_weights.h"
 
 namespace throng::render {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "spec/camera/camera_spec.h"
 
 namespace throng::render {

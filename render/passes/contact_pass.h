@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "render/frame/view.h"
 #include "render/gl/gl_objects.h"
-#include "render/scene.h"
+#include "render/props/scene.h"
 #include "render/scenery/daylight.h"
 #include "render/scenery/lamps.h"
-#include "render/view.h"
 #include "world/scenario.h"
 
 namespace throng::render {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstddef>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
 #include "render/props/leaf_sprites.h"

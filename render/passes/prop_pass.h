@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "render/frame/view.h"
 #include "render/gl/gl_objects.h"
 #include "render/props/prop_shapes.h"
 #include "render/scenery/scenery.h"
-#include "render/view.h"
 #include "spec/render/quality.h"
 #include "world/scenario.h"
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/compute/random.h"
+#include "render/frame/view.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
 #include "render/scenery/lighting.h"
-#include "render/view.h"
 
 namespace throng::render {
 

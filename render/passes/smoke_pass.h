@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/gl/gl_objects.h"
-#include "render/scene.h"
+#include "render/props/scene.h"
 #include "spec/render/environment.h"
 #include "world/disasters.h"
 

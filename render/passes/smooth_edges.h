@@ -3,7 +3,7 @@
 // borders' length. Changes only colors; ids and depth stay exact.
 #pragma once
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::render {
 

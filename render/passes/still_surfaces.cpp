@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "render/view.h"
+#include "render/frame/view.h"
 
 namespace throng::render {
 

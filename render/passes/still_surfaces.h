@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::render {
 

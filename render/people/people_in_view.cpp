@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "render/view.h"
+#include "render/frame/view.h"
 #include "skinning/levels.h"
 
 namespace throng::render {

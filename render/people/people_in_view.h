@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/people/body_boxes.h"
 #include "render/people/people_pass.h"
 #include "render/people/person_geometry.h"
-#include "render/scene.h"
+#include "render/props/scene.h"
 #include "skinning/landmarks.h"
 #include "skinning/population.h"
 #include "spec/render/quality.h"

@@ -10,7 +10,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/gl/shaders.h"
 #include "render/people/device_palettes.h"
 

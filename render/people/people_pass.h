@@ -8,7 +8,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/people/people_meshes.h"
-#include "render/scene.h"
+#include "render/props/scene.h"
 #include "skinning/population.h"
 #include "spec/render/quality.h"
 

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "render/view.h"
+#include "render/frame/view.h"
 
 namespace throng::render {
 

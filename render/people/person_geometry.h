@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "render/frame.h"
-#include "render/scene.h"
+#include "render/frame/frame.h"
+#include "render/props/scene.h"
 #include "skinning/landmarks.h"
 #include "skinning/population.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/props/prop_builder.h"
 
 namespace throng::render {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/props/mesh_file.h"
 
 namespace throng::render {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/geometry/polygon.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/props/prop_cells.h"
 #include "render/scenery/far_objects.h"
 #include "render/scenery/ground_layers.h"

@@ -7,7 +7,7 @@
 
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::render {
 

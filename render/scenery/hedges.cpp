@@ -8,7 +8,7 @@
 
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/props/prop_cells.h"
 #include "render/scenery/scenery.h"
 #include "render/scenery/surface_classes.h"

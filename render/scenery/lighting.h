@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/view.h"
 #include "render/scenery/daylight.h"
-#include "render/view.h"
 #include "world/disasters.h"
 
 namespace throng::render {
@@ -58,7 +58,7 @@ struct LightFrame {
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's center
   double time_s = 0;
   std::span<const Fire> fires{};  ///< at most kMaxFires
-  double exposure_gain = 1;       ///< gain of the camera's metering (render/lens/metering.h)
+  double exposure_gain = 1;       ///< gain of the camera's metering (render/scenery/metering.h)
 };
 
 /// Preprocessor lines "#define WORD" for the shaders of this environment: NO_SUN, SOFT (soft

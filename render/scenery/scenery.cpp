@@ -8,7 +8,7 @@
 #include "base/compute/random.h"
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/scenery/hedges.h"
 #include "render/scenery/scenery_details.h"
 

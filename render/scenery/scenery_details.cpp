@@ -9,7 +9,7 @@
 #include "base/geometry/angle.h"
 #include "base/geometry/polygon.h"
 #include "base/geometry/rectangle.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::render {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "world/semantic_class.h"
 
 namespace throng::render {

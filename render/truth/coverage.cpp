@@ -4,9 +4,9 @@
 #include <array>
 #include <utility>
 
+#include "render/frame/view.h"
 #include "render/people/shelves.h"
 #include "render/truth/silhouettes.h"
-#include "render/view.h"
 
 namespace throng::render {
 

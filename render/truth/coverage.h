@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "render/frame/pixel_mask.h"
+#include "render/frame/pixel_weights.h"
 #include "render/gl/gl_objects.h"
 #include "render/people/people_pass.h"
-#include "render/pixel_mask.h"
-#include "render/pixel_weights.h"
 
 namespace throng::render {
 

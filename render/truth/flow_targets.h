@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::render {
 

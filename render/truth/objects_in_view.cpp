@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/geometry/polygon.h"
-#include "render/view.h"
+#include "render/frame/view.h"
 
 namespace throng::render {
 

@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/people/person_geometry.h"
+#include "render/props/scene.h"
 #include "render/props/vehicles.h"
-#include "render/scene.h"
 
 namespace throng::render {
 

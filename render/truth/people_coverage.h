@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
+#include "render/frame/pixel_weights.h"
 #include "render/people/people_in_view.h"
 #include "render/people/people_pass.h"
-#include "render/pixel_weights.h"
-#include "render/scene.h"
+#include "render/props/scene.h"
 #include "render/truth/coverage.h"
 #include "render/truth/silhouettes.h"
 

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "render/frame/pixel_mask.h"
+#include "render/frame/pixel_weights.h"
 #include "render/gl/gl_objects.h"
 #include "render/people/shelves.h"
-#include "render/pixel_mask.h"
-#include "render/pixel_weights.h"
 
 namespace throng::render {
 

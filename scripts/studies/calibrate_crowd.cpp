@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "base/compute/quantile.h"
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 #include "validation/flow.h"
 
 namespace throng::validation {

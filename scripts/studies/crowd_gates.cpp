@@ -30,7 +30,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 #include "validation/flow.h"
 #include "validation/walking.h"
 

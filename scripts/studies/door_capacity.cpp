@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "crowd/description/builder.h"
-#include "crowd/model.h"
 #include "crowd/simulation.h"
+#include "crowd/state/model.h"
 #include "metrics/basis/crossings.h"
 
 namespace {

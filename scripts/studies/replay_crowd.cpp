@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 #include "validation/experiments/comparison.h"
 
 namespace throng::validation {

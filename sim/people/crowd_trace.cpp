@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/version.h"
-#include "crowd/project.h"
+#include "crowd/project/project.h"
 
 namespace throng::sim {
 

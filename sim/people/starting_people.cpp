@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "sim/people/load_people.h"
 #include "sim/people/participants.h"
-#include "sim/run.h"
 
 namespace throng::sim {
 

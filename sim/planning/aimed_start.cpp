@@ -11,9 +11,9 @@
 #include "base/compute/random.h"
 #include "base/geometry/angle.h"
 #include "sim/people/crowd_source.h"
+#include "sim/people/load_people.h"
 #include "sim/people/starting_people.h"
 #include "sim/planning/clearance.h"
-#include "sim/run.h"
 
 namespace throng::sim {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 
-#include "sim/controller.h"
 #include "sim/sensors/world_view.h"
+#include "sim/vehicle/controller.h"
 #include "spec/sim/run_spec.h"
 
 namespace throng::sim {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "sim/controller.h"
+#include "sim/vehicle/controller.h"
 
 namespace throng::sim {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sim/people/crowd_source.h"
+#include "sim/recording/run_observer.h"
 #include "sim/recording/standing_turns.h"
-#include "sim/run_observer.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/run_observer.h"
+#include "sim/recording/run_observer.h"
 #include "world/trace.h"
 
 namespace throng::sim {

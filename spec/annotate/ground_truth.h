@@ -4,7 +4,7 @@
 // a download selects.
 // The code that writes and checks a kind is registered under the same enumerator:
 // annotate/frame_writers.cpp, jobs/pipeline/frames/run_writers.cpp,
-// check/ground_truth_checks.cpp.
+// checks/ground_truth_checks.cpp.
 #pragma once
 
 #include <cstdint>

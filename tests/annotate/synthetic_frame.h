@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/compute/random.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace throng::annotate {
 

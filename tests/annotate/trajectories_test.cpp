@@ -1,5 +1,5 @@
 // Positions of everybody at given times, on a trace made by hand.
-#include "annotate/trajectories.h"
+#include "annotate/rasters/trajectories.h"
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ class Check(unittest.TestCase):
         return {warning["pointer"]: warning["found"] for warning in self.answer(**fields)["warnings"]}
 
     def test_disk_is_estimated_within_a_factor(self):
-        """Of jobs of several kinds; scripts/studies/estimates.py measures time, too, and more jobs."""
+        """Estimates of disk and memory for jobs of several kinds."""
         small = {"id": "a", "start": [8, -3, 15], "camera": {"width": 320, "height": 240, "yaw_deg": 90}}
         camera = {**small["camera"], "pitch_deg": -40}
         drones = [{**small, "camera": camera}]

@@ -7,7 +7,7 @@
 #include <functional>
 #include <thread>
 
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 #include "tests/base/wait_until.h"
 #include "tests/crowd/crowd_files.h"
 #include "tests/crowd/model_scenes.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/files/resources.h"
-#include "crowd/project.h"
+#include "crowd/project/project.h"
 #include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {

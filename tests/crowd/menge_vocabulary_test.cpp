@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "crowd/model.h"
-#include "crowd/project.h"
+#include "crowd/project/project.h"
+#include "crowd/state/model.h"
 #include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {

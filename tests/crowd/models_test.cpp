@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "crowd/model.h"
 #include "crowd/models/ellipse.h"
+#include "crowd/state/model.h"
 #include "tests/crowd/crowd_files.h"
 #include "tests/crowd/model_scenes.h"
 

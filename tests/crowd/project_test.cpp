@@ -1,5 +1,5 @@
 // Project files: what they say, what they leave out, and what is wrong with them.
-#include "crowd/project.h"
+#include "crowd/project/project.h"
 #include "base/files/resources.h"
 
 #include <gmock/gmock.h>

@@ -1,12 +1,12 @@
 // The list of what the files may say is the tables that read them.
-#include "crowd/vocabulary.h"
+#include "crowd/project/vocabulary.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "crowd/behavior.h"
-#include "crowd/model.h"
+#include "crowd/state/behavior.h"
+#include "crowd/state/model.h"
 
 namespace throng::crowd {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 #include "tests/fuzz/fuzz_folder.h"
 #include "tests/fuzz/fuzz_steps.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
-#include "check/validate.h"
+#include "checks/validate.h"
 #include "formats/export/exporter.h"
 #include "formats/merge.h"
 #include "jobs/queue/dataset/manifest.h"
@@ -76,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                        input.substr(middle + kSeparator.size()));
   write_temporary_file(dataset / "metrics.json", R"({"runs":[{"run":"run000"}]})");
   attempt([&] { static_cast<void>(jobs::read_manifest(dataset)); });
-  attempt([&] { static_cast<void>(formats::validate_dataset(dataset)); });
+  attempt([&] { static_cast<void>(checks::validate_dataset(dataset)); });
   attempt([&] { export_all(dataset, outer / "inner/out-formats"); });
   attempt([&] { formats::merge_datasets({dataset, dataset}, outer / "inner/out-merged"); });
   require_undisturbed(outer);

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "crowd/output/scb.h"
-#include "crowd/project.h"
+#include "crowd/project/project.h"
 #include "tests/fuzz/fuzz_folder.h"
 #include "tests/fuzz/fuzz_steps.h"
 

@@ -16,7 +16,7 @@
 #include "base/geometry/polygon.h"
 #include "places/scenarios/blueprint/generated.h"
 #include "places/scenarios/blueprint/load_scenario.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
 #include "render/scenery/ground_layers.h"

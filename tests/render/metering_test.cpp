@@ -1,5 +1,5 @@
 // Automatic exposure.
-#include "render/lens/metering.h"
+#include "render/scenery/metering.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/view.h"
+#include "render/frame/view.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Drones that fly missions among buildings.
-#include "sim/vehicle/flight.h"
+#include "sim/fleet/flight.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/fleet/flight.h"
 #include "sim/policies/policy_table.h"
-#include "sim/vehicle/flight.h"
 #include "tests/sim/airframes.h"
 
 namespace throng::sim::testing {

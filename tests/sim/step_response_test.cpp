@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/geometry/angle.h"
-#include "sim/controller.h"
+#include "sim/vehicle/controller.h"
 #include "sim/vehicle/flight_world.h"
 #include "sim/vehicle/wind.h"
 #include "spec/sim/airframe.h"

@@ -1,5 +1,5 @@
 // Garments read from descriptions, over all people of a library.
-#include "skinning/clothes.h"
+#include "skinning/wardrobe/clothes.h"
 
 #include <gtest/gtest.h>
 

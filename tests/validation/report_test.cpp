@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/files/resources.h"
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 #include "validation/suite.h"
 
 namespace throng::validation {

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "tests/world/temporary_folder.h"
+#include "world/fields/read_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::world {

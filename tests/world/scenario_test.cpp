@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "tests/world/temporary_folder.h"
+#include "world/fields/read_scenario.h"
 
 namespace throng::world {
 namespace {

@@ -1,5 +1,5 @@
 // The scenario that a trace holds.
-#include "world/trace_scenario.h"
+#include "world/fields/trace_scenario.h"
 #include "base/files/resources.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "tests/world/temporary_folder.h"
+#include "world/fields/read_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::world {

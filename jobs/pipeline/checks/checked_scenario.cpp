@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "sim/planning/aimed_start.h"
 #include "sim/run.h"
 #include "spec/job/plan.h"

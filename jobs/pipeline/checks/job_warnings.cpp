@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "formats/export/exporter.h"
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/annotate/ground_truth.h"
 #include "spec/job/environment.h"

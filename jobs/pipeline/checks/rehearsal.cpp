@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "places/scenarios/check/check.h"
 #include "sim/people/people_watch.h"
 #include "sim/run.h"

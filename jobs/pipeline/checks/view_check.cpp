@@ -8,7 +8,7 @@
 
 #include "camera/camera.h"
 #include "jobs/pipeline/frames/gimbal.h"
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "sim/planning/planned_paths.h"
 #include "sim/sensors/gimbal.h"
 #include "spec/job/plan.h"

@@ -48,6 +48,7 @@ struct TaskProgress {
   std::string what = {};  ///< name of the current step; "" if the task does not name it
   std::string node = {};  ///< the worker's cluster node; "" on this machine
 };
+using OnTaskProgress = std::function<void(const TaskProgress&)>;
 
 /// Work of one cluster node.
 struct NodeWork {

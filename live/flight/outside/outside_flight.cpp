@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
-#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/runs/job_scenario.h"
 #include "live/flight/flight.h"
 #include "live/flight/flight_recording.h"
 #include "live/flight/flight_topics.h"

@@ -13,6 +13,7 @@
 #include "places/scenarios/blueprint/shorthand.h"
 #include "spec/blueprint/blueprint_fields.h"
 #include "world/extended_document.h"
+#include "world/fields/read_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::scenarios {

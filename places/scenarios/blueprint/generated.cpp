@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "places/scenarios/blueprint/blueprint.h"
+#include "world/fields/read_scenario.h"
 
 namespace throng::scenarios {
 

@@ -9,8 +9,8 @@
 
 #include "base/geometry/polygon.h"
 #include "crowd/elements/element.h"
-#include "crowd/model.h"
 #include "crowd/scene.h"
+#include "crowd/state/model.h"
 #include "world/scenario_crowd.h"
 
 namespace throng::scenarios {

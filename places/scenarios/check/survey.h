@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "crowd/crowd.h"
 #include "crowd/navigation/walkable_grid.h"
+#include "crowd/state/crowd.h"
 #include "world/scenario.h"
 
 namespace throng::scenarios {

@@ -1,7 +1,7 @@
 // Goals that move, that are full, that are kept and that are shared.
 #include <gtest/gtest.h>
 
-#include "crowd/behavior/goal_path.h"
+#include "crowd/state/goal_path.h"
 #include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {

@@ -5,7 +5,7 @@
 
 #include "base/compute/random.h"
 #include "base/compute/simd.h"
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 #include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {

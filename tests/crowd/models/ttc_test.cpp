@@ -9,7 +9,7 @@
 
 #include "base/compute/random.h"
 #include "base/error.h"
-#include "crowd/model.h"
+#include "crowd/state/model.h"
 #include "tests/crowd/crowd_files.h"
 #include "tests/crowd/model_scenes.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "annotate/frame_writers.h"
-#include "check/ground_truth_checks.h"
+#include "checks/ground_truth_checks.h"
 #include "formats/export/exporter.h"
 #include "jobs/pipeline/frames/run_writers.h"
 #include "spec/job/spec.h"
@@ -41,7 +41,7 @@ TEST(GroundTruthTables, EveryKindIsWritten) {
 }
 
 TEST(GroundTruthTables, EveryKindWithFilesOfItsOwnIsChecked) {
-  const auto checked = kinds_in(formats::ground_truth_checkers());
+  const auto checked = kinds_in(checks::ground_truth_checkers());
   for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
     const bool is_record = kind.file == ground_truth_kind(GroundTruth::coco).file;
     EXPECT_EQ(checked.contains(kind.kind), !is_record) << kind.name;

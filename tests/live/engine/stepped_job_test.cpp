@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/files/hash.h"
 #include "jobs/pipeline/checks/resolve.h"
-#include "jobs/pipeline/job_scenario.h"
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/job_scenario.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "sim/run.h"
 #include "tests/world/temporary_folder.h"
 

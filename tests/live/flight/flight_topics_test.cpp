@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
-#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/runs/job_scenario.h"
 #include "live/flight/flight.h"
 #include "spec/job/spec.h"
 #include "tests/jobs/yard.h"

@@ -10,6 +10,7 @@
 #include "places/scenarios/blueprint/crowd_scene.h"
 #include "tests/places/scenarios/square.h"
 #include "tests/world/temporary_folder.h"
+#include "world/fields/read_scenario.h"
 
 namespace throng::scenarios {
 namespace {

@@ -15,6 +15,7 @@
 #include "places/scenarios/check/survey.h"
 #include "tests/places/scenarios/square.h"
 #include "tests/world/temporary_folder.h"
+#include "world/fields/read_scenario.h"
 
 namespace throng::scenarios {
 namespace {

@@ -13,6 +13,7 @@
 #include "places/scenarios/blueprint/blueprint.h"
 #include "tests/places/scenarios/square.h"
 #include "tests/world/temporary_folder.h"
+#include "world/fields/read_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::scenarios {

@@ -12,6 +12,7 @@
 #include "places/scenarios/check/check.h"
 #include "tests/world/temporary_folder.h"
 #include "world/alarm.h"
+#include "world/fields/read_scenario.h"
 #include "world/scenario_crowd.h"
 
 namespace throng::scenarios {

@@ -15,6 +15,7 @@
 #include "base/schemas/json_schema.h"
 #include "places/scenarios/blueprint/blueprint.h"
 #include "spec/blueprint/blueprint_fields.h"
+#include "world/fields/read_scenario.h"
 #include "world/fields/scenario_fields.h"
 #include "world/scenario.h"
 #include "world/semantic_class.h"

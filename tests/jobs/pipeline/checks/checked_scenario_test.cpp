@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/files/resources.h"
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/planning/aimed_start.h"
 #include "sim/run.h"

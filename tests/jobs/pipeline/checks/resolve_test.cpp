@@ -9,7 +9,7 @@
 #include "annotate/people/coco.h"
 #include "base/error.h"
 #include "base/files/files.h"
-#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/runs/run_input.h"
 #include "places/scenarios/blueprint/load_scenario.h"
 #include "sim/run.h"
 #include "tests/jobs/yard.h"

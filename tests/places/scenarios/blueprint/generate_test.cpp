@@ -10,6 +10,7 @@
 #include "places/scenarios/check/check.h"
 #include "places/scenarios/check/survey.h"
 #include "tests/world/temporary_folder.h"
+#include "world/fields/read_scenario.h"
 
 namespace throng::scenarios {
 namespace {

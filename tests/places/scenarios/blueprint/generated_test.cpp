@@ -14,6 +14,7 @@
 #include "places/scenarios/blueprint/blueprint.h"
 #include "places/scenarios/check/check.h"
 #include "tests/world/temporary_folder.h"
+#include "world/fields/read_scenario.h"
 #include "world/scenario_crowd.h"
 
 namespace throng::scenarios {

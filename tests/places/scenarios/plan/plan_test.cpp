@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/places/scenarios/yard.h"
+#include "world/fields/read_scenario.h"
 
 namespace throng::scenarios {
 namespace {
