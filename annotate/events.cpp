@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "annotate/exits/exit_view.h"
 #include "annotate/people/coco.h"
 #include "annotate/people/decimals.h"
-#include "annotate/people/exit_view.h"
 #include "metrics/basis/people.h"
 
 namespace throng::annotate {

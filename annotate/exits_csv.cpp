@@ -4,8 +4,8 @@
 
 #include <iterator>
 
+#include "annotate/exits/exit_view.h"
 #include "annotate/people/decimals.h"
-#include "annotate/people/exit_view.h"
 #include "base/error.h"
 #include "spec/annotate/table_columns.h"
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "annotate/exits/exit_view.h"
 #include "annotate/people/actions.h"
 #include "annotate/people/coco.h"
-#include "annotate/people/exit_view.h"
 #include "annotate/people/hazard_view.h"
 #include "annotate/people/labels.h"
 #include "render/frame/frame.h"

@@ -1,4 +1,5 @@
 #include "calibration/model_choice.h"
+#include "calibration/lens_fit.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -83,7 +84,7 @@ Calibration calibrate_with_best_lens(const Correspondences& all, const Intrinsic
   const auto calibrate = [&](const Correspondences& views, Lens lens) {
     with.lens = lens;
     with.settings = settings_for(lens, options.settings);
-    return calibrate_intrinsics(views, with);
+    return calibrate_lens(views, with);
   };
   const Correspondences used = used_in(calibrate(all, Lens::brown5));
   with.fit.reject = false;

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "calibration/calibration.h"
-#include "calibration/intrinsics.h"
+#include "calibration/correspondences.h"
+#include "spec/calibration/options.h"
 
 namespace throng::calibrate {
 

@@ -7,7 +7,7 @@
 
 #include "crowd/elements/attributes.h"
 #include "crowd/elements/element.h"
-#include "crowd/elements/menge_random.h"
+#include "crowd/elements/menge_sequences.h"
 #include "crowd/state/behavior.h"
 #include "crowd/state/crowd.h"
 #include "crowd/state/model.h"

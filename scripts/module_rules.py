@@ -237,7 +237,7 @@ class Check:
             order = list(folders)
             if order.index(there) > order.index(here):
                 self.violations.append(
-                    f"{path}:{line}: includes {header}, but folder '{here}' precedes '{there}' in {module}/CMakeLists.txt: the "
+                    f"{path}:{line}: includes {header}, but folder '{here}' precedes '{there}' in {module}/CMakeLists.txt; the "
                     "own folder of a module is below those that follow it and above those that precede it"
                 )
         elif there not in folders[here].uses:

@@ -13,6 +13,7 @@
 #include "sim/fleet/flight.h"
 #include "sim/guidance_loop.h"
 #include "sim/people/crowd_source.h"
+#include "sim/people/load_people.h"
 #include "sim/people/prop_watch.h"
 #include "sim/people/starting_people.h"
 #include "sim/planning/aimed_start.h"
@@ -20,7 +21,6 @@
 #include "sim/planning/plan.h"
 #include "sim/planning/separation.h"
 #include "sim/recording/crowd_recorder.h"
-#include "sim/run.h"
 #include "sim/vehicle/hold_warnings.h"
 
 namespace throng::sim {

@@ -13,6 +13,7 @@
 
 #include "annotate/people/decimals.h"
 #include "annotate/people/person_record.h"
+#include "annotate/people/run_lengths.h"
 #include "base/error.h"
 
 namespace throng::annotate {

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "annotate/people/exit_view.h"
-#include "annotate/people/ground_polygon.h"
+#include "annotate/exits/exit_view.h"
+#include "annotate/exits/ground_polygon.h"
 #include "spec/annotate/outlines.h"
 
 namespace throng::annotate {

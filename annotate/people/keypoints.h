@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "annotate/people/labels.h"
+#include "annotate/people/frame_labels.h"
 #include "render/frame/frame.h"
 
 namespace throng::annotate {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "annotate/people/run_lengths.h"
 #include "annotate/people/visible_mask.h"
 
 namespace throng::annotate {

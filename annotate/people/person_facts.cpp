@@ -9,8 +9,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "annotate/exits/exit_view.h"
 #include "annotate/people/color_name.h"
-#include "annotate/people/exit_view.h"
 #include "base/error.h"
 #include "base/text/words.h"
 #include "render/animator.h"

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "annotate/people/coco.h"
-#include "annotate/people/labels.h"
+#include "annotate/people/coco_image.h"
+#include "annotate/people/frame_labels.h"
 
 namespace throng::annotate {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "annotate/people_sheet/people_sheet.h"
+#include "annotate/people_sheet/sheet_options.h"
 #include "camera/camera.h"
 #include "render/renderer.h"
 #include "skinning/population.h"

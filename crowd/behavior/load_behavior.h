@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "crowd/elements/menge_sequences.h"
 #include "crowd/state/behavior.h"
 
 namespace throng::crowd {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "crowd/elements/menge_random.h"
+#include "crowd/elements/menge_sequences.h"
 #include "crowd/elements/registry.h"
 #include "crowd/population/profile.h"
 #include "crowd/population/social_groups.h"

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "crowd/elements/menge_random.h"
+#include "crowd/elements/menge_sequences.h"
 #include "crowd/elements/registry.h"
 #include "crowd/state/crowd.h"
 

@@ -9,7 +9,7 @@
 #include "crowd/elements/attributes.h"
 #include "crowd/elements/distribution.h"
 #include "crowd/elements/element.h"
-#include "crowd/elements/menge_random.h"
+#include "crowd/elements/menge_sequences.h"
 #include "crowd/state/model.h"
 
 namespace throng::crowd {

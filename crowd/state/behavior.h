@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "crowd/elements/menge_sequences.h"
 #include "crowd/elements/registry.h"
 #include "crowd/elements/sampler.h"
 #include "crowd/state/crowd.h"

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "annotate/people/run_lengths.h"
 #include "base/error.h"
 
 namespace throng::formats {

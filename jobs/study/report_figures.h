@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "jobs/study/run_report.h"
+#include "jobs/study/measured_run.h"
 
 namespace throng::study {
 

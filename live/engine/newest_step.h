@@ -1,7 +1,7 @@
 // The newest step of a run, in arrays that keep their addresses.
 #pragma once
 
-#include "live/engine/stepped_job.h"
+#include "live/engine/drone_rows.h"
 #include "live/flight/run_recorder.h"
 #include "world/trace.h"
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "live/engine/drone_rows.h"
 #include "sim/remote/remote_pilots.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -20,10 +21,6 @@ class ThreadLimit;
 }
 
 namespace throng::engine {
-
-/// One row per drone: position and velocity (m, m/s, world), orientation (w, x, y, z, body to
-/// world) and body rates (rad/s).
-using DroneRows = Eigen::Matrix<double, Eigen::Dynamic, 13, Eigen::RowMajor>;
 
 /// Choices beyond the job.
 struct RunChoices {

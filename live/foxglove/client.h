@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "live/foxglove/channels.h"
 #include "live/foxglove/client_messages.h"
 #include "live/foxglove/client_queue.h"
-#include "live/foxglove/server.h"
 
 namespace throng::foxglove {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "live/foxglove/channels.h"
 #include "live/foxglove/client_messages.h"
-#include "live/foxglove/server.h"
 
 namespace throng::foxglove {
 

@@ -2,7 +2,7 @@
 // only once the gap is long enough.
 #pragma once
 
-#include "metrics/exits/exits.h"
+#include "metrics/exits/exit_samples.h"
 
 namespace throng::metrics {
 

@@ -2,7 +2,7 @@
 // hysteresis; and the clogging index.
 #pragma once
 
-#include "metrics/exits/exits.h"
+#include "metrics/exits/exit_samples.h"
 
 namespace throng::metrics {
 

@@ -12,7 +12,8 @@
 
 #include "base/compute/random.h"
 #include "render/props/leaf_sprites.h"
-#include "render/props/prop_shapes.h"
+#include "render/props/prop_mesh.h"
+#include "world/props.h"
 
 namespace throng::render {
 

@@ -8,6 +8,7 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
 #include "render/frame/frame.h"
+#include "render/scenery/ground_tone.h"
 
 namespace throng::render {
 

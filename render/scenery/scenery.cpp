@@ -9,6 +9,7 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
 #include "render/frame/frame.h"
+#include "render/scenery/ground_tone.h"
 #include "render/scenery/hedges.h"
 #include "render/scenery/scenery_details.h"
 
@@ -148,29 +149,6 @@ float openness_at(const world::Scenario& scenario, const Eigen::Vector2d& point)
 }
 
 // Three octaves of smooth noise over squares of 23, 9 and 4 m.
-float ground_tone_at(const Eigen::Vector2d& point) {
-  constexpr std::array<std::array<double, 2>, 3> kOctaves = {{{23, 0.14}, {9, 0.12}, {4, 0.10}}};
-  const auto corner = [](double x, double y, std::uint64_t octave) {
-    constexpr double kOffset = 1 << 24;  // indices are not negative
-    const auto column = static_cast<std::uint64_t>(x + kOffset);
-    const auto row = static_cast<std::uint64_t>(y + kOffset);
-    return Random(octave, Stream::environment, column << 32U | row).uniform(-1, 1);
-  };
-  double tone = 1;
-  for (std::uint64_t octave = 0; octave < kOctaves.size(); ++octave) {
-    const auto [size_m, strength] = kOctaves[octave];
-    const Eigen::Array2d at = point.array() / size_m;
-    const Eigen::Array2d cell = at.floor();
-    const Eigen::Array2d t = at - cell;
-    const Eigen::Array2d f = t * t * (3 - 2 * t);
-    const auto row = [&](double y) {
-      return (1 - f.x()) * corner(cell.x(), y, octave) + f.x() * corner(cell.x() + 1, y, octave);
-    };
-    tone += strength * ((1 - f.y()) * row(cell.y()) + f.y() * row(cell.y() + 1));
-  }
-  return static_cast<float>(tone);
-}
-
 SceneryMesh scenery_mesh(const world::Scenario& scenario) {
   SceneryMesh mesh;
   const auto indices = [&] { return static_cast<std::uint32_t>(mesh.indices.size()); };

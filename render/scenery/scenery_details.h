@@ -4,7 +4,8 @@
 
 #include <cstdint>
 
-#include "render/scenery/scenery.h"
+#include "render/scenery/scenery_mesh.h"
+#include "world/scenario.h"
 
 namespace throng::render {
 

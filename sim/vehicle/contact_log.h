@@ -12,6 +12,9 @@
 
 namespace throng::sim {
 
+/// Coefficient of restitution of all contacts.
+inline constexpr double kRestitution = 0.4;
+
 /// Objects that a vehicle can hit.
 using Obstacle = world::Partner;
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/vehicle/flight_world.h"
-
 namespace throng::sim {
 
 std::optional<std::size_t> propeller_hit(const Contact& contact, const Airframe& airframe) {

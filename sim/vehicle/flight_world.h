@@ -16,8 +16,6 @@ namespace throng::sim {
 /// Size of people in collisions: upright capsules whose motion is prescribed (kinematic bodies).
 inline constexpr double kPersonRadiusM = 0.25;
 inline constexpr double kPersonHeightM = 1.7;
-/// Coefficient of restitution of all contacts.
-inline constexpr double kRestitution = 0.4;
 
 /// A person near a vehicle, at the start of the next step.
 struct NearPerson {

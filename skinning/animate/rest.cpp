@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/geometry/angle.h"
-#include "skinning/animate/plan.h"
+#include "skinning/animate/piece.h"
 
 namespace throng::skinning {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "skinning/body/makehuman.h"
+#include "skinning/body/makehuman_mesh.h"
 
 namespace throng::skinning {
 

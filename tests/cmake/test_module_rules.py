@@ -35,8 +35,8 @@ throng_folder(. "Sizes.")
     "walls/spec/width.h": "#pragma once\n",
     "walls/spec/unused.h": "#pragma once\n",
     "walls/CMakeLists.txt": """throng_module(walls PUBLIC wall.h stones/stone.h SOURCES wall.cpp stones/stone.cpp MODULES walls/spec)
-throng_folder(. "Walls.")
 throng_folder(stones "Stones (natural ones) and what holds them together.")
+throng_folder(. "Walls.")
 throng_folder(arches "Stones above nothing." USES stones)
 """,
     "walls/arches/arch.h": '#pragma once\n#include "walls/stones/stone.h"\n#include "walls/brick.h"\n',
@@ -235,8 +235,16 @@ class Rules(unittest.TestCase):
             {f"walls/stones/stone_{i}.h": "#pragma once\n" for i in range(38)},
             "walls/CMakeLists.txt: folder 'walls/stones' holds 41 files, expected at most 40",
         )
-        # The module's own folder may be included from all of its folders, and includes them all.
-        self.accepted({"walls/wall.cpp": PROJECT["walls/wall.cpp"] + '#include "walls/arches/arch.h"\n'})
+
+    def test_own_folder_is_below_or_above(self):
+        self.refused(
+            {"walls/wall.cpp": PROJECT["walls/wall.cpp"] + '#include "walls/arches/arch.h"\n'},
+            "walls/wall.cpp:3: includes walls/arches/arch.h, but folder 'walls' precedes 'walls/arches' in walls/CMakeLists.txt",
+        )
+        self.refused(
+            {"walls/stones/mortar.h": '#pragma once\n#include "walls/brick.h"\n'},
+            "walls/stones/mortar.h:2: includes walls/brick.h, but folder 'walls/stones' precedes 'walls' in walls/CMakeLists.txt",
+        )
 
     def test_a_folder_uses_only_folders_declared_before_it(self):
         text = PROJECT["walls/CMakeLists.txt"].replace('together.")', 'together." USES arches)')

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "validation/experiments/experiment.h"
+#include "spec/crowd/experiment.h"
 
 namespace throng::validation {
 

@@ -1,4 +1,4 @@
-// What a run of a job simulates.
+// Input of the simulation for a run of a job.
 #pragma once
 
 #include <cstdint>

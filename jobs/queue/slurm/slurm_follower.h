@@ -6,7 +6,7 @@
 
 #include "base/compute/steady_time.h"
 #include "jobs/queue/slurm/slurm_array.h"
-#include "jobs/queue/slurm/slurm_arrays.h"
+#include "jobs/queue/slurm/slurm_call.h"
 #include "jobs/queue/slurm/slurm_ends.h"
 
 namespace throng::jobs {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/compute/steady_time.h"
-#include "jobs/queue/slurm/slurm_arrays.h"
+#include "jobs/queue/slurm/slurm_call.h"
 
 namespace throng::jobs {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "jobs/queue/slurm/slurm_array.h"
-#include "jobs/queue/slurm/slurm_arrays.h"
+#include "jobs/queue/slurm/slurm_call.h"
 #include "jobs/queue/slurm/slurm_ends.h"
 #include "jobs/queue/slurm/slurm_refusals.h"
 #include "jobs/queue/slurm/slurm_tasks.h"

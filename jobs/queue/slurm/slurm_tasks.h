@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/compute/steady_time.h"
-#include "jobs/queue/slurm/slurm_arrays.h"
+#include "jobs/queue/slurm/slurm_call.h"
 #include "jobs/queue/slurm/slurm_submission.h"
 #include "jobs/queue/workers/executor.h"
 

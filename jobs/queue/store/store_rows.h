@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "jobs/queue/store/job_row.h"
 #include "jobs/queue/store/service_clock.h"
-#include "jobs/queue/store/store.h"
 
 namespace throng::jobs {
 

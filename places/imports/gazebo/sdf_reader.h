@@ -12,8 +12,8 @@
 
 #include "base/geometry/rectangle.h"
 #include "places/imports/gazebo/saved_state.h"
+#include "places/imports/gazebo/sdf_options.h"
 #include "places/imports/gazebo/sdf_shapes.h"
-#include "places/imports/gazebo/sdf_world.h"
 #include "places/imports/gazebo/world_ground.h"
 #include "places/imports/parts/imported_scenario.h"
 #include "places/imports/sdf/local_files.h"

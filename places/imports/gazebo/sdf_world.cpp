@@ -12,6 +12,7 @@
 #include "base/geometry/rectangle.h"
 #include "places/imports/gazebo/sdf_reader.h"
 #include "places/imports/gazebo/world_fixtures.h"
+#include "places/imports/parts/scenario_name.h"
 #include "places/imports/parts/scenario_writer.h"
 #include "places/imports/parts/solids.h"
 #include "places/imports/sdf/sdf_pose.h"

@@ -4,15 +4,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "places/imports/gazebo/sdf_options.h"
 #include "places/imports/parts/imported_scenario.h"
 
 namespace throng::imports {
-
-/// Options of read_sdf().
-struct SdfOptions {
-  std::vector<std::filesystem::path> models;  ///< folders in which model:// is resolved
-  std::vector<Gate> gates;                    ///< exits; empty: openings of the edge
-};
 
 /// Reads the first world of a file, or a model without a world, with included files from the
 /// world's folder and `models` (nothing is downloaded, and no other file is read). Boxes,

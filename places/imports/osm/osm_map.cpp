@@ -17,6 +17,7 @@
 #include "places/imports/osm/osm_props.h"
 #include "places/imports/osm/osm_tags.h"
 #include "places/imports/parts/populate.h"
+#include "places/imports/parts/scenario_name.h"
 #include "places/imports/parts/scenario_writer.h"
 #include "places/imports/parts/solids.h"
 

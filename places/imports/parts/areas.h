@@ -6,13 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "places/imports/parts/corners.h"
 #include "world/scenario.h"
 
 namespace throng::imports {
-
-/// The corners (m) of a polygon, counter-clockwise from above, the first one not repeated at the
-/// end.
-using Corners = std::vector<Eigen::Vector2d>;
 
 /// An area with holes (m).
 struct Area {

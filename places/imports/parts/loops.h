@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "places/imports/parts/areas.h"
+#include "places/imports/parts/corners.h"
 
 namespace throng::imports {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <iterator>
 
-#include "places/imports/parts/scenario_writer.h"
+#include "places/imports/parts/scenario_name.h"
 
 namespace throng::imports {
 

@@ -250,22 +250,6 @@ double overview_height_m(const ImportedScenario& scenario) {
   return height;
 }
 
-std::string scenario_name_from(const fs::path& file) {
-  std::string name;
-  for (const char c : file.stem().string()) {
-    const bool upper = c >= 'A' && c <= 'Z';
-    const char lower = upper ? static_cast<char>(c - 'A' + 'a') : c;
-    const bool word = (lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9');
-    if (word) {
-      name += lower;
-    } else if (!name.empty() && name.back() != '_') {
-      name += '_';
-    }
-  }
-  while (!name.empty() && name.back() == '_') name.pop_back();
-  return name.empty() ? "scenario" : name;
-}
-
 fs::path write_imported_scenario(const ImportedScenario& scenario, const Population& population,
                                  const fs::path& folder) {
   constexpr int kIndent = 1;

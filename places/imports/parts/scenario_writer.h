@@ -17,9 +17,6 @@ std::filesystem::path write_imported_scenario(const ImportedScenario& scenario,
                                               const Population& population,
                                               const std::filesystem::path& folder);
 
-/// A valid name made from a file's stem: "My World.sdf" becomes "my_world".
-std::string scenario_name_from(const std::filesystem::path& file);
-
 /// Height (m) from which a drone sees the scenario, above all roofs.
 double overview_height_m(const ImportedScenario& scenario);
 

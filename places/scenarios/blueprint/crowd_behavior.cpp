@@ -11,7 +11,6 @@
 #include "base/geometry/angle.h"
 #include "crowd/description/builder.h"
 #include "places/scenarios/blueprint/blocked.h"
-#include "places/scenarios/blueprint/crowd_scene.h"
 #include "places/scenarios/blueprint/people.h"
 
 namespace throng::scenarios {

@@ -10,6 +10,12 @@
 
 namespace throng::scenarios {
 
+/// Ids of goal sets in the behavior: the exits for people who leave normally, the exits for people
+/// who flee, and the goals that drones move.
+inline constexpr int kLeavingSet = 5;
+inline constexpr int kFleeingSet = 3;
+inline constexpr int kGuidesSet = 99;
+
 /// Name of the initial state of people with this activity.
 std::string state_name(Doing doing);
 /// Name of the initial state of people who arrive and head for this exit.

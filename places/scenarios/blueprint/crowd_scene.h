@@ -10,12 +10,6 @@
 
 namespace throng::scenarios {
 
-/// Ids of goal sets in the behavior: the exits for people who leave normally, the exits for people
-/// who flee, and the goals that drones move.
-inline constexpr int kLeavingSet = 5;
-inline constexpr int kFleeingSet = 3;
-inline constexpr int kGuidesSet = 99;
-
 /// Describes the crowd. Adds a problem for each group that has no room for all of its people.
 crowd::CrowdDescription crowd_of_people(const world::Scenario& scenario, const People& people,
                                         std::vector<Problem>& problems);

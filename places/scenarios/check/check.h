@@ -6,25 +6,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "places/scenarios/check/finding.h"
 #include "world/scenario.h"
 
 namespace throng::scenarios {
-
-/// Severity of a finding.
-enum class Severity {
-  warning,  ///< works, but is probably not intended
-  error     ///< a run would fail or have useless results
-};
-
-/// A problem of a scenario, with a remedy.
-struct Finding {
-  Severity severity = Severity::error;
-  Problem problem;     ///< file, element, value found, value expected
-  std::string remedy;  ///< what to do about it
-
-  /// Text such as "error: yard.json: /exits/1: found ..., expected ...\n  remedy: ...".
-  std::string text() const;
-};
 
 /// Checks a scenario and its crowd: sizes that suggest wrong units; overlapping buildings; people
 /// who start in walls, buildings or props or cannot get out; exits that are too narrow, walled up,

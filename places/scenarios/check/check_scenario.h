@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "places/scenarios/check/check.h"
+#include "places/scenarios/check/finding.h"
 #include "places/scenarios/check/outline.h"
 #include "places/scenarios/check/survey.h"
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/geometry/polygon.h"
+#include "crowd/behavior/load_behavior.h"
 #include "crowd/elements/element.h"
 #include "crowd/scene.h"
 #include "crowd/state/model.h"

@@ -5,7 +5,8 @@
 #include <span>
 #include <string>
 
-#include "places/scenarios/plan/plan.h"
+#include "base/graphics/drawing/drawing.h"
+#include "world/scenario.h"
 
 namespace throng::scenarios {
 

@@ -1,4 +1,4 @@
-#include "annotate/people/exit_view.h"
+#include "annotate/exits/exit_view.h"
 
 #include <gtest/gtest.h>
 

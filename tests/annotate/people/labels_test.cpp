@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "annotate/people/run_lengths.h"
 #include "tests/annotate/rle.h"
 #include "tests/annotate/synthetic_frame.h"
 

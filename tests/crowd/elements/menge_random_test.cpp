@@ -1,4 +1,5 @@
 #include "crowd/elements/menge_random.h"
+#include "crowd/elements/menge_sequences.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include "places/imports/gazebo/sdf_world.h"
 #include "places/imports/osm/osm_map.h"
 #include "places/imports/parts/populate.h"
+#include "places/imports/parts/scenario_name.h"
 #include "places/imports/parts/scenario_writer.h"
 #include "places/scenarios/blueprint/load_scenario.h"
 #include "places/scenarios/check/check.h"

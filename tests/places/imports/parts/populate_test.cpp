@@ -16,6 +16,7 @@
 #include "base/files/files.h"
 #include "base/geometry/polygon.h"
 #include "base/geometry/rectangle.h"
+#include "places/imports/parts/scenario_name.h"
 #include "places/imports/parts/scenario_writer.h"
 #include "tests/world/temporary_folder.h"
 

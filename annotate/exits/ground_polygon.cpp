@@ -1,4 +1,4 @@
-#include "annotate/people/ground_polygon.h"
+#include "annotate/exits/ground_polygon.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "annotate/people/exit_view.h"
+#include "annotate/exits/exit_view.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "annotate/people/ground_polygon.h"
+#include "annotate/exits/ground_polygon.h"
 #include "base/error.h"
 #include "metrics/basis/control_zone.h"
 #include "world/trace.h"

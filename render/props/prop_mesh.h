@@ -1,0 +1,38 @@
+// Meshes of props.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace throng::render {
+
+/// Reflection of a surface; also in shaders/prop.frag.glsl.
+enum class Finish : std::uint8_t {
+  matt = 0,
+  leaves = 1,     ///< a card of leaves with holes
+  glossy = 2,     ///< lacquer and glass, which reflect the sky
+  lamp = 3,       ///< emits light after sunset
+  water = 4,      ///< mirrors sky and sun in waves
+  lit_glass = 5,  ///< glossy, and lit from within after sunset
+  screen = 6,     ///< a wall of lights that shows moving images
+  bark = 7        ///< furrowed, or with dark bands if bright
+};
+
+/// A vertex of a prop.
+struct PropVertex {
+  std::array<float, 3> position{};  ///< m, world
+  std::array<float, 3> normal{};
+  /// Leaves: coordinates on the card, 0 to 1; twice the number of the sprite is added to the first.
+  std::array<float, 2> card{};
+  std::array<std::uint8_t, 4> paint{};  ///< linear albedo, then the Finish
+  std::uint32_t id = 0;
+};
+
+/// Triangles, counter-clockwise from outside; cards of leaves are visible from both sides.
+struct PropMesh {
+  std::vector<PropVertex> vertices;
+  std::vector<std::uint32_t> indices;
+};
+
+}  // namespace throng::render

@@ -1,0 +1,42 @@
+// The triangles of a scenario's surroundings. Independent of GL.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace throng::render {
+
+/// Min height (m) of walls with stories, windows and lamps; also in shaders/wall.frag.glsl.
+inline constexpr double kMinStoryM = 2.6;
+
+/// A vertex of the scenery.
+struct SceneryVertex {
+  std::array<float, 3> position{};  ///< m
+  std::array<float, 3> normal{};
+  /// Walls: coordinates along the wall and up, length and height of the wall (m). Roofs:
+  /// coordinates from the corner of the roof's bounds, and their size (m). Ground:
+  /// ground_tone_at(), then in wide areas 1 m and the distance to their outline (m), else 0.
+  std::array<float, 4> local{};
+  float openness = 1;    ///< share of the sky's light that reaches the point, 0 to 1
+  std::uint32_t id = 0;  ///< value in the id buffer
+  float facade = 0;      ///< walls: value of world::Facade or WallLook
+};
+
+/// A range of indices of triangles that share a shader.
+struct Range {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// The triangles of the scenery, by ranges of indices.
+struct SceneryMesh {
+  std::vector<SceneryVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< counter-clockwise from outside
+  Range walls;
+  Range roofs;
+  Range ground;
+  Range surroundings;  ///< the plain beyond the ground's edge, to the horizon
+};
+
+}  // namespace throng::render
