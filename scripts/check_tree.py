@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Refuses files that do not belong in the repository: unknown places and kinds of files, too large ones, and images
-of docs/ that no script makes.
+"""Refuses files that do not belong in the repository: unknown places and kinds of files, too large ones, images of docs/
+that no script makes, and long lines of documents.
 
 usage: scripts/check_tree.py [ROOT]
 """
 import fnmatch
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -51,6 +52,7 @@ RULES = [
         "biome.jsonc", ".clang-format", ".clang-tidy", ".dockerignore", ".gitignore", ".shellcheckrc")),
 ]  # fmt: skip
 LINKS = ["python/LICENSE"]
+MAX_LINE = 160  # characters of a paragraph; of a table, a text in quotes or what a program writes they may be more
 
 
 def problem(root, name):
@@ -66,6 +68,16 @@ def problem(root, name):
         return f"found {-(-size // 1024)} KiB, expected at most {limit_kib} (scripts/check_tree.py)"
     if name.startswith("docs/") and file.suffix in (".jpg", ".png", ".svg") and not maker(name.removeprefix("docs/")):
         return "no script makes this image (scripts/sheets/doc_images.py)"
+    if name.endswith((".md", "CMakeLists.txt")) and not name.startswith("docs/reference/"):
+        text = re.sub(
+            r"^```.*?^```",
+            lambda block: "\n" * block[0].count("\n"),
+            file.read_text(encoding="utf-8"),
+            flags=re.M | re.S,
+        )
+        for number, line in enumerate(text.splitlines(), 1):
+            if len(line) > MAX_LINE and not line.startswith("|") and '"' not in line:
+                return f"line {number}: found {len(line)} characters, expected at most {MAX_LINE}"
     return None
 
 

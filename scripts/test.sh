@@ -168,7 +168,7 @@ step_asan() {
 # these is ever repeated.
 step_tsan() {
   say "building and testing (ThreadSanitizer): the concurrent parts"
-  local tests=(base bucket crowd_determinism jobs_foxglove jobs_live_loop jobs_queue server)
+  local tests=(base bucket crowd_determinism live_foxglove live_loop jobs_queue server)
   build tsan "${tests[@]/#/test_}"
   TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" run_ctest tsan tsan -j2 -L "^($(IFS='|' && echo "${tests[*]}"))\$"
 }

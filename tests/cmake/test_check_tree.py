@@ -57,6 +57,14 @@ class CheckTree(unittest.TestCase):
         self.assertIn("found 40 KiB, expected at most 32", found["base/table.cpp"])
         self.assertIn("no script makes this image", found["docs/by_hand.png"])
 
+    def test_long_lines_of_documents_are_named(self):
+        self.add("docs/paragraph.md", 161)
+        self.add("docs/table.md")
+        (self.root / "docs/table.md").write_text(f"| {'x' * 200} |\n\n```text\n{'y' * 200}\n```\n", encoding="utf-8")
+        self.assertEqual(
+            self.found(), {"docs/paragraph.md": "docs/paragraph.md: line 1: found 161 characters, expected at most 160"}
+        )
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -8,6 +8,7 @@
 #include "base/schemas/json_schema.h"
 #include "crowd/description/menge_files/write.h"
 #include "places/scenarios/blueprint/blocked.h"
+#include "places/scenarios/blueprint/crowd_behavior.h"
 #include "places/scenarios/blueprint/crowd_scene.h"
 #include "places/scenarios/blueprint/people.h"
 #include "places/scenarios/blueprint/shorthand.h"
