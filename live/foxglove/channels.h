@@ -49,4 +49,8 @@ struct Hooks {
   std::function<void(std::size_t service, const nlohmann::json& request, ServiceAnswer)> call;
 };
 
+/// Whether a page of this origin may connect: none (programs), this machine's, Foxglove's, and the
+/// given ones. Any page that a user opens could otherwise steer.
+bool is_allowed_origin(std::string_view origin, const std::vector<std::string>& more);
+
 }  // namespace throng::foxglove

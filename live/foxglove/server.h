@@ -25,10 +25,6 @@ struct ServerOptions {
                                      ///< and of Foxglove; "*": all
 };
 
-/// Whether a page of this origin may connect: none (programs), this machine's, Foxglove's, and the
-/// given ones. Any page that a user opens could otherwise steer.
-bool is_allowed_origin(std::string_view origin, const std::vector<std::string>& more);
-
 /// Safe to use from many threads. No member waits for clients.
 class Server {
  public:
