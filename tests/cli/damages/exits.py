@@ -1,5 +1,6 @@
 """Damages to tables and polygons of exits, and to metrics."""
 import json
+import operator
 
 from .dataset import damage, damage_by, damage_of_labels, each_image
 
@@ -29,7 +30,17 @@ def exits_exchanged(head, rows):
     return rows
 
 
-def busy_columns(d, change, picture_key=None):
+def change_column(d, column, change):
+    """Of the first run's table; images keep what they have."""
+
+    def changed(head, rows):
+        at = head.index(column)
+        return [[*row[:at], change(row[at]), *row[at + 1 :]] for row in rows]
+
+    change_exits(d, changed)
+
+
+def busy_columns(d, change):
     """Table and images alike, where the demand is there."""
     for run in range(len(d.runs)):
         name = exits_name(d, run)
@@ -59,20 +70,14 @@ def busy_columns(d, change, picture_key=None):
     d.save_coco()
 
 
-@damage_by(busy_columns)
-def clogging_index_inverted(at, row):
-    row[at["clogging_index"]] = f"{1 - float(row[at['clogging_index']]):.4f}"
+def change_busy_column(d, column, change):
+    busy_columns(d, lambda at, row: operator.setitem(row, at[column], change(row[at[column]])))
 
 
 @damage_by(busy_columns)
 def clogging_index_inverted_where_people_wait(at, row):
     if row[at["demand"]] == "1":
         row[at["clogging_index"]] = f"{1 - float(row[at['clogging_index']]):.4f}"
-
-
-@damage_by(busy_columns)
-def flow_of_exits_doubled(at, row):
-    row[at["flow"]] = f"{2 * float(row[at['flow']]):.2f}"
 
 
 @damage_by(busy_columns)
@@ -181,40 +186,6 @@ def crossings_in_and_out_exchanged(head, rows):
     return rows
 
 
-@damage_by(busy_columns)
-def queues_one_more(at, row):
-    row[at["queue"]] = str(int(row[at["queue"]]) + 1)
-
-
-@damage_by(busy_columns)
-def people_at_exits_one_more(at, row):
-    row[at["in_zone"]] = str(int(row[at["in_zone"]]) + 1)
-
-
-@damage_by(change_exits)
-def predicted_waits_halved(head, rows):
-    at = head.index("predicted_wait")
-    for row in rows:
-        row[at] = f"{float(row[at]) / 2:.2f}"
-    return rows
-
-
-@damage_by(change_exits)
-def predicted_waits_doubled(head, rows):
-    at = head.index("predicted_wait")
-    for row in rows:
-        row[at] = f"{float(row[at]) * 2:.2f}"
-    return rows
-
-
-@damage_by(change_exits)
-def pressure_of_exits_doubled(head, rows):
-    at = head.index("pressure")
-    for row in rows:
-        row[at] = f"{2 * float(row[at]):.4f}"
-    return rows
-
-
 @damage_by(change_exits)
 def exits_with_nan(head, rows):
     rows[len(rows) // 2][head.index("density")] = "nan"
@@ -288,6 +259,13 @@ def exposure_doubled(run):
 
 
 DAMAGES = {
+    "clogging index inverted": lambda d: change_busy_column(d, "clogging_index", lambda v: f"{1 - float(v):.4f}"),
+    "flow of exits doubled": lambda d: change_busy_column(d, "flow", lambda v: f"{2 * float(v):.2f}"),
+    "queues one more": lambda d: change_busy_column(d, "queue", lambda v: str(int(v) + 1)),
+    "people at exits one more": lambda d: change_busy_column(d, "in_zone", lambda v: str(int(v) + 1)),
+    "predicted waits halved": lambda d: change_column(d, "predicted_wait", lambda v: f"{float(v) / 2:.2f}"),
+    "predicted waits doubled": lambda d: change_column(d, "predicted_wait", lambda v: f"{float(v) * 2:.2f}"),
+    "pressure of exits doubled": lambda d: change_column(d, "pressure", lambda v: f"{2 * float(v):.4f}"),
     "exits of the other run": lambda d: d.exchange(exits_name(d, 0), exits_name(d, 1)),
     "metrics of two runs exchanged": lambda d: d.exchange(f"metrics/{d.runs[0]}.json", f"metrics/{d.runs[1]}.json"),
 }
