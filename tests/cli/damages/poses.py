@@ -7,57 +7,22 @@ from .dataset import damage, damage_by, damage_of_labels, each_person, each_pers
 PAIRS = [(1, 2), (3, 4), (5, 6), (7, 8), (9, 10), (11, 12), (13, 14), (15, 16)]
 
 
-def exchange_keypoints(person, pairs=PAIRS, flat=True, solid=True):
-    for a, b in pairs:
-        if flat:
+def exchange_keypoints(d, people, pairs=PAIRS, solid=True):
+    for person in people:
+        for a, b in pairs:
             k = person["keypoints"]
             k[3 * a : 3 * a + 3], k[3 * b : 3 * b + 3] = k[3 * b : 3 * b + 3], k[3 * a : 3 * a + 3]
-        if solid:
-            k = person["keypoints_3d"]
-            k[a], k[b] = k[b], k[a]
+            if solid:
+                k = person["keypoints_3d"]
+                k[a], k[b] = k[b], k[a]
+    d.save_coco()
 
 
-@damage_by(each_person)
-def left_and_right_keypoints_exchanged(person):
-    exchange_keypoints(person)
-
-
-@damage_of_labels
-def left_and_right_keypoints_of_one_person_exchanged(d):
-    exchange_keypoints(d.largest(d.image()))
-
-
-@damage_of_labels
-def left_and_right_arms_of_one_person_exchanged(d):
-    exchange_keypoints(d.largest(d.image()), [(5, 6), (7, 8), (9, 10)])
-
-
-@damage_by(each_person_of_an_image)
-def keypoints_exchanged_in_the_picture_only(person):
-    exchange_keypoints(person, solid=False)
-
-
-@damage_of_labels
-def elbows_and_wrists_of_one_person_exchanged(d):
-    person = d.largest(d.image())
-    exchange_keypoints(person, [(7, 9), (8, 10)])
-
-
-@damage_by(each_person_of_an_image)
-def eyes_and_ears_exchanged(person):
-    exchange_keypoints(person, [(1, 3), (2, 4)])
-
-
-@damage_by(each_person_of_an_image)
-def visible_keypoints_called_hidden(person):
-    k = person["keypoints"]
-    k[2::3] = [1 if v == 2 else v for v in k[2::3]]
-
-
-@damage_by(each_person_of_an_image)
-def hidden_keypoints_called_visible(person):
-    k = person["keypoints"]
-    k[2::3] = [2 if v == 1 else v for v in k[2::3]]
+def change_states(d, people, key, states):
+    """Of keypoints or joints, {state: the one that it becomes}."""
+    for person in people:
+        person[key][2::3] = [states.get(state, state) for state in person[key][2::3]]
+    d.save_coco()
 
 
 def turn_vector(v, angle):
@@ -109,12 +74,6 @@ def positions_of_the_frame_before(d):
     for person in d.people(d.image(-1, 2)):
         if person["track_id"] in before:
             person["position"] = before[person["track_id"]]["position"]
-
-
-@damage_by(each_person)
-def keypoint_visibility_inverted(person):
-    k = person["keypoints"]
-    k[2::3] = [{0: 0, 1: 2, 2: 1}[v] for v in k[2::3]]
 
 
 @damage_by(each_person_of_an_image)
@@ -188,16 +147,6 @@ def joints_2_px_to_the_right(person):
     person["joints"][3 * 17 :: 3] = [x + 2 if x else x for x in person["joints"][3 * 17 :: 3]]
 
 
-@damage_by(each_person)
-def self_hidden_joints_called_hidden(person):
-    person["joints"][2::3] = [1 if state == 3 else state for state in person["joints"][2::3]]
-
-
-@damage_by(each_person)
-def all_joints_visible(person):
-    person["joints"][2::3] = [2 if state else 0 for state in person["joints"][2::3]]
-
-
 @damage_of_labels
 def gaze_backward(d):
     person = d.largest(d.image())
@@ -230,6 +179,21 @@ def joints_left_out(d):
 
 
 DAMAGES = {
+    "left and right keypoints exchanged": lambda d: exchange_keypoints(d, d.everybody),
+    "left and right keypoints of one person exchanged": lambda d: exchange_keypoints(d, [d.largest(d.image())]),
+    "left and right arms of one person exchanged": lambda d: exchange_keypoints(
+        d, [d.largest(d.image())], [(5, 6), (7, 8), (9, 10)]
+    ),
+    "keypoints exchanged in the picture only": lambda d: exchange_keypoints(d, d.people(d.image()), solid=False),
+    "elbows and wrists of one person exchanged": lambda d: exchange_keypoints(
+        d, [d.largest(d.image())], [(7, 9), (8, 10)]
+    ),
+    "eyes and ears exchanged": lambda d: exchange_keypoints(d, d.people(d.image()), [(1, 3), (2, 4)]),
+    "visible keypoints called hidden": lambda d: change_states(d, d.people(d.image()), "keypoints", {2: 1}),
+    "hidden keypoints called visible": lambda d: change_states(d, d.people(d.image()), "keypoints", {1: 2}),
+    "keypoint visibility inverted": lambda d: change_states(d, d.everybody, "keypoints", {1: 2, 2: 1}),
+    "self hidden joints called hidden": lambda d: change_states(d, d.everybody, "joints", {3: 1}),
+    "all joints visible": lambda d: change_states(d, d.everybody, "joints", {1: 2, 3: 2}),
     "velocities reversed": lambda d: change_velocities(d, d.everybody, lambda v: [-v[0], -v[1]]),
     "velocity of one person reversed": lambda d: change_velocities(d, [walker(d, d.image())], lambda v: [-v[0], -v[1]]),
     "velocities 5 percent too high": lambda d: change_velocities(
