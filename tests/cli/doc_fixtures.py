@@ -1,18 +1,17 @@
 """Files that the shell blocks of the documentation need: small jobs, places, points, boards and characters."""
 
-import importlib
 import json
 import math
-import pathlib
 import shutil
 import subprocess
-import sys
 import zipfile
 
 import numpy
 from PIL import Image
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, write_json
+from test_people import box_man
+
 SMALL_VIEW = {"width": 160, "height": 120}
 SMALL_JOB = {
     "scenario": "city_square/nearest_exit",
@@ -22,10 +21,6 @@ SMALL_JOB = {
     "capture": {"to_s": 1},
     "outputs": {"previews": 0},
 }
-
-
-def write_json(path, value):
-    path.write_text(json.dumps(value))
 
 
 def shortened(job):
@@ -190,8 +185,6 @@ def points(folder, throng):
 
 def models(folder, throng, names):
     """Rigged models made of boxes."""
-    sys.argv.insert(1, str(throng))  # which the module takes away
-    box_man = importlib.import_module("test_people").box_man
     (folder / "man.gltf").write_text(box_man())
     for name in names:
         write_json(folder / f"{name}.json", {"name": name, "model": "man.gltf", "height_m": 1.7, "license": "CC0-1.0"})

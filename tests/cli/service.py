@@ -1,7 +1,9 @@
-"""Starts the service for tests and benchmarks, and waits for what happens."""
+"""Starts the service for tests and benchmarks, asks it, and waits for what happens."""
+import json
 import pathlib
 import subprocess
 import time
+import urllib.request
 
 
 def wait_until(condition, seconds=300, what="something"):
@@ -40,3 +42,16 @@ def start_service(program, data, *options, port=0, **of_process):
     if not listens():
         raise ServiceEnded(process)
     return process, int(port_file.read_text())
+
+
+def send(url, body=None, method=None, key=None, kind="application/json", timeout_s=300):
+    """The open answer to a request, whose body is bytes or a JSON value. Raises urllib.error.HTTPError."""
+    data = body if body is None or isinstance(body, bytes) else json.dumps(body).encode()
+    headers = {"Content-Type": kind, **({"Authorization": f"Bearer {key}"} if key else {})}
+    return urllib.request.urlopen(urllib.request.Request(url, data, headers, method=method), timeout=timeout_s)
+
+
+def ask(url, body=None, **options):
+    """The JSON value of the answer; options are those of send()."""
+    with send(url, body, **options) as answer:
+        return json.loads(answer.read() or b"null")

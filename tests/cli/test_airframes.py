@@ -1,34 +1,21 @@
 """throng airframes: the quadcopters that a job can name, and those that a user describes."""
 import json
 import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-THRONG = sys.argv.pop(1)
+from program import FolderTest, throng, write_json
+
 ROBOTS = pathlib.Path(__file__).resolve().parents[1] / "places/imports/data/robots"
 PAPER_CASES = ("nearest_exit", "crowded_exit_blocked", "side_exit_blocked", "second_nearest")
-
-
-def throng(*arguments, **options):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
 
 
 def one_drone(airframe, **guidance):
     return {"id": "d1", "airframe": airframe, "start": [10, 6, 22], "guidance": guidance}
 
 
-class Airframes(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Airframes(FolderTest):
     def simulate(self, job):
-        file = self.folder / "job.json"
-        file.write_text(json.dumps(job))
-        return throng("simulate", file, "-o", self.folder / "run.h5")
+        return throng("simulate", write_json(self.folder / "job.json", job), "-o", self.folder / "run.h5")
 
     def test_an_airframe_that_was_printed_is_one_that_a_job_can_have(self):
         names = [line.split()[0] for line in throng("airframes").stdout.splitlines()[1:]]
@@ -40,8 +27,7 @@ class Airframes(unittest.TestCase):
                 "drones": [one_drone(airframe, policy="hover")],
                 "capture": {"to_s": 1},
             }
-            done = self.simulate(job)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.simulate(job)
 
     def test_hector_flies_the_cases_of_the_paper(self):
         for case in PAPER_CASES:
@@ -52,14 +38,12 @@ class Airframes(unittest.TestCase):
                 "capture": {"to_s": 90},
             }
             done = self.simulate(job)
-            self.assertEqual(done.returncode, 0, done.stderr)
             for event in ("blown", "tilt", "collision", "fall"):
                 self.assertNotIn(event, done.stderr, case)
 
     def test_an_imported_robot_flies_with_its_own_camera(self):
         airframe = self.folder / "quad.json"
         done = throng("airframes", "import", ROBOTS / "quad.urdf", "-o", airframe)
-        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stderr, r"skipped: .*quad.urdf:25: plugin sonar")
         self.assertRegex(done.stderr, r"assumed: rotors: those of the airframe hector")
         job = {
@@ -67,17 +51,15 @@ class Airframes(unittest.TestCase):
             "drones": [one_drone(json.loads(airframe.read_text()), policy="hover")],
             "capture": {"to_s": 1},
         }
-        self.assertEqual(self.simulate(job).returncode, 0)
+        self.simulate(job)
         self.assertEqual(json.loads(airframe.read_text())["camera"]["gimbal"]["model"], "rigid")
 
     def test_models_that_lie_elsewhere_are_found_in_folders_that_are_named(self):
         robot = self.folder / "racer.sdf"
         robot.write_text((ROBOTS / "racer_with_camera" / "model.sdf").read_text())
-        lost = throng("airframes", "import", robot)
-        self.assertEqual(lost.returncode, 2)
+        lost = throng("airframes", "import", robot, code=2)
         self.assertRegex(lost.stderr, r"racer.sdf: line \d+: .*model://racer.*--models")
         found = throng("airframes", "import", robot, "--models", ROBOTS)
-        self.assertEqual(found.returncode, 0, found.stderr)
         self.assertAlmostEqual(json.loads(found.stdout)["mass_kg"], 1.1)
         self.assertRegex(found.stderr, "propeller_3.*no <inertia>")
 
@@ -91,8 +73,7 @@ class Airframes(unittest.TestCase):
             ([ROBOTS / "quad.urdf", "--camera", "frnt"], 'unknown camera "frnt"; did you mean "front"'),
             ([ROBOTS / "quad.urdf", "--models", self.folder / "none"], "which is no folder"),
         ):
-            done = throng("airframes", "import", *arguments)
-            self.assertEqual(done.returncode, 2, arguments)
+            done = throng("airframes", "import", *arguments, code=2)
             self.assertRegex(done.stderr, expected)
 
 

@@ -2,14 +2,11 @@
 drones. `throng schema`.
 usage: test_alone.py THRONG"""
 import json
-import os
 import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
+from program import FolderTest, printed
+
 YARD = {
     "$schema": "schemas/blueprint.schema.json",
     "name": "Yard",
@@ -40,24 +37,14 @@ JOB = {
 }
 
 
-class Alone(unittest.TestCase):
+class Alone(FolderTest):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        super().setUp()
         (self.folder / "yard.blueprint.json").write_text(json.dumps(YARD))
 
     def throng(self, *words, scenarios="mine", code=0):
-        done = subprocess.run(
-            [THRONG, *words],
-            capture_output=True,
-            text=True,
-            cwd=self.folder,
-            timeout=300,
-            env={**os.environ, "THRONG_SCENARIOS": str(self.folder / scenarios)},
-        )
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done.stderr if code else done.stdout
+        variables = {"THRONG_SCENARIOS": self.folder / scenarios}
+        return printed(*words, cwd=self.folder, variables=variables, code=code)
 
     def simulated(self, job=JOB):
         self.throng("scenario", "make", "yard.blueprint.json", "-o", "mine")
@@ -112,4 +99,4 @@ class Alone(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[1:]])
+    unittest.main()

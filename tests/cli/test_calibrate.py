@@ -1,28 +1,19 @@
 """throng calibrate: from the command line and over HTTP, and datasets that have the camera it found."""
-import http.client
 import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
-import urllib.request
 
 import cv2
 import numpy
 
-from service import start_service, wait_until
+from program import ROOT, THRONG, FolderTest, throng, write_json
+from service import ask, send, wait_until
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 import throng as throng_package  # noqa: E402
 
-THRONG = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHARED = ROOT.parent / "shared" / "data" / "calib"
-
-
-def throng(*arguments, **options):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=500, **options)
 
 
 def points_table():
@@ -43,24 +34,19 @@ def points_table():
     return "\n".join(lines) + "\n"
 
 
-class Calibrate(unittest.TestCase):
+class Calibrate(FolderTest):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.base = pathlib.Path(self.folder.name)
-        self.points = self.base / "points.csv"
+        super().setUp()
+        self.points = self.folder / "points.csv"
         self.points.write_text(points_table())
 
-    def tearDown(self):
-        self.folder.cleanup()
-
     def calibrate(self, *more):
-        out = self.base / "camera.json"
+        out = self.folder / "camera.json"
         done = throng("calibrate", "intrinsics", "--points", self.points, "--size", "640x480", "-o", out, *more)
-        self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(out.read_text()), done.stdout
 
     def test_points_give_a_camera_and_all_files(self):
-        files = [self.base / name for name in ("cv.yaml", "ros.yaml", "residuals.svg")]
+        files = [self.folder / name for name in ("cv.yaml", "ros.yaml", "residuals.svg")]
         camera, said = self.calibrate("--lens", "pinhole", "--opencv", files[0], "--ros", files[1], "--plot", files[2])
         self.assertAlmostEqual(camera["fx"], 800, places=4)
         self.assertAlmostEqual(camera["cx"], 321, places=4)
@@ -76,7 +62,7 @@ class Calibrate(unittest.TestCase):
         self.calibrate("--lens", "pinhole")
         centres = {"a": (0.0, 0.0, 25.0), "b": (4.0, 1.0, 26.0), "c": (-3.0, 2.0, 24.0)}
         ground = {f"p{i}": (2.5 * (i % 5) - 5, 3.0 * (i // 5) - 4, 0.4 * (i * 7 % 5)) for i in range(20)}
-        gcp, seen = self.base / "gcp.csv", self.base / "seen.csv"
+        gcp, seen = self.folder / "gcp.csv", self.folder / "seen.csv"
         gcp.write_text("point,X,Y,Z\n" + "".join(f"{p},{x},{y},{z}\n" for p, (x, y, z) in ground.items()))
         lines = ["image,point,u,v"]  # straight down, the top of the image to the north
         for image, (cx, cy, cz) in centres.items():
@@ -84,20 +70,9 @@ class Calibrate(unittest.TestCase):
                 lines.append(f"{image},{point},{800 * (x - cx) / (cz - z) + 321},{800 * (cy - y) / (cz - z) + 238}")
         seen.write_text("\n".join(lines) + "\n")
         for command in ("pose", "bundle"):
-            out = self.base / f"{command}.json"
-            done = throng(
-                "calibrate",
-                command,
-                "--camera",
-                self.base / "camera.json",
-                "--gcp",
-                gcp,
-                "--observations",
-                seen,
-                "-o",
-                out,
-            )
-            self.assertEqual(done.returncode, 0, done.stderr)
+            out = self.folder / f"{command}.json"
+            files = ["--camera", self.folder / "camera.json", "--gcp", gcp, "--observations", seen]
+            throng("calibrate", command, *files, "-o", out)
             views = {view["image"]: view for view in json.loads(out.read_text())["views"]}
             self.assertEqual(sorted(views), sorted(centres))
             for image, centre in centres.items():
@@ -105,16 +80,13 @@ class Calibrate(unittest.TestCase):
                     self.assertAlmostEqual(found, true, places=3, msg=(command, image))
 
     def test_errors_name_what_is_wrong(self):
-        done = throng("calibrate", "intrinsics", "--points", self.points)
-        self.assertEqual(done.returncode, 2)
+        done = throng("calibrate", "intrinsics", "--points", self.points, code=2)
         self.assertIn("the size of the images", done.stderr)
-        done = throng("calibrate", "intrinsics", "--points", self.points, "--size", "640x480", "--fix", "k9=1")
-        self.assertEqual(done.returncode, 2)
+        done = throng("calibrate", "intrinsics", "--points", self.points, "--size", "640x480", "--fix", "k9=1", code=2)
         self.assertIn("k9", done.stderr)
-        bad = self.base / "bad.jpg"
+        bad = self.folder / "bad.jpg"
         bad.write_text("no picture")
-        done = throng("calibrate", "intrinsics", bad)
-        self.assertEqual(done.returncode, 2)
+        done = throng("calibrate", "intrinsics", bad, code=2)
         self.assertIn("bad.jpg", done.stderr)
 
     def board_image(self, name, columns, rows, tilt):
@@ -130,19 +102,18 @@ class Calibrate(unittest.TestCase):
             seen = numpy.float32([[60 + tilt, 60], [540, 40 + tilt], [560 - tilt, 420], [80, 400 - tilt]])
             matrix = cv2.getPerspectiveTransform(corners, seen)
             picture = cv2.warpPerspective(board.astype(numpy.uint8), matrix, (640, 480), borderValue=128)
-        cv2.imwrite(str(self.base / name), picture)
-        return self.base / name
+        cv2.imwrite(str(self.folder / name), picture)
+        return self.folder / name
 
     def test_a_board_that_is_found_in_few_images_is_refused(self):
         images = [self.board_image(f"{i}.png", 9 if i < 4 else 0, 6, 8 * i) for i in range(13)]
-        done = throng("calibrate", "intrinsics", *images, "--columns", 9, "--rows", 6)
-        self.assertEqual(done.returncode, 2)
+        done = throng("calibrate", "intrinsics", *images, "--columns", 9, "--rows", 6, code=2)
         self.assertIn("found the board in 4 of 13 images, expected it in at least half of them", done.stderr)
-        done = throng("calibrate", "intrinsics", *images[:4], "--columns", 9, "--rows", 6)
+        done = throng("calibrate", "intrinsics", *images[:4], "--columns", 9, "--rows", 6, code=None)
         self.assertNotIn("expected it in at least half", done.stderr)
 
     def test_cameras_of_other_programs(self):
-        chain = self.base / "chain.yaml"
+        chain = self.folder / "chain.yaml"
         one = """cam{}:
   camera_model: pinhole
   distortion_coeffs: [-0.1, 0.02, 0.0003, 0.0001]
@@ -158,40 +129,34 @@ class Calibrate(unittest.TestCase):
             "drones": [{"id": "d1", "start": [0, 0, 20], "camera": {"calibration": "chain.yaml#cam1"}}],
             "capture": {"from_s": 1, "to_s": 2},
         }
-        file = self.base / "job.json"
-        file.write_text(json.dumps(job))
+        file = write_json(self.folder / "job.json", job)
         done = throng("check", file, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["job"]["drones"][0]["camera"]["calibration"]["fx"], 700)
         job["drones"][0]["camera"]["calibration"] = "chain.yaml"
         file.write_text(json.dumps(job))
-        done = throng("check", file)
-        self.assertEqual(done.returncode, 2)
+        done = throng("check", file, code=2)
         self.assertIn("FILE#NAME with one of: cam0, cam1", done.stderr)
 
     def test_pictures_of_a_real_board(self):
         if not SHARED.exists():
             self.skipTest("no pictures beside the sources")
         pictures = sorted((SHARED / "chess").iterdir())
-        out = self.base / "left.json"
-        bad = self.base / "bad.jpg"
+        out = self.folder / "left.json"
+        bad = self.folder / "bad.jpg"
         bad.write_text("no picture")
         done = throng("calibrate", "intrinsics", *pictures, bad, "--columns", "9", "--rows", "6", "-o", out)
-        self.assertEqual(done.returncode, 0, done.stderr)
         camera = json.loads(out.read_text())
         wanted = json.loads((SHARED / "reference.json").read_text())["left_full"]
         self.assertAlmostEqual(camera["fx"], wanted["fx"], delta=0.05)
         self.assertAlmostEqual(camera["rms_px"], wanted["rms_px"], delta=1e-3)
         self.assertEqual(len(camera["views"]), 13)
         self.assertIn("left out: " + str(bad), done.stdout)
-        done = throng("calibrate", "intrinsics", *pictures[:2], "--columns", "7", "--rows", "5")
-        self.assertEqual(done.returncode, 2)
+        done = throng("calibrate", "intrinsics", *pictures[:2], "--columns", "7", "--rows", "5", code=2)
         self.assertIn("9 x 6 inner corners", done.stderr)
 
     def test_a_rendered_board_gives_the_camera_that_rendered_it(self):
-        report = self.base / "report.json"
-        done = throng("calibrate", "selftest", "--device", "software", "-o", report)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        report = self.folder / "report.json"
+        throng("calibrate", "selftest", "--device", "software", "-o", report)
         checks = json.loads(report.read_text())["checks"]
         self.assertEqual(len(checks), 6)
         for check in checks:
@@ -209,12 +174,10 @@ class Calibrate(unittest.TestCase):
     def test_datasets_have_the_calibrated_camera(self):
         camera, _ = self.calibrate("--lens", "brown5")
         camera.update(k1=-0.2, p1=0.001, skew=0.5)
-        (self.base / "mine.json").write_text(json.dumps(camera))
-        job = self.base / "job.json"
-        job.write_text(json.dumps(self.job("mine.json")))
-        done = throng("run", job, "-o", self.base / "out", "--workers", "1")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        dataset = self.base / "out" / "dataset"
+        (self.folder / "mine.json").write_text(json.dumps(camera))
+        job = write_json(self.folder / "job.json", self.job("mine.json"))
+        throng("run", job, "-o", self.folder / "out", "--workers", "1")
+        dataset = self.folder / "out" / "dataset"
         manifest = json.loads((dataset / "manifest.json").read_text())
         recorded = manifest["job"]["drones"][0]["camera"]["calibration"]
         for name in ("fx", "fy", "cx", "cy", "skew", "k1", "p1", "width", "height"):
@@ -222,39 +185,22 @@ class Calibrate(unittest.TestCase):
         yaml = next(dataset.glob("cameras/**/*.opencv.yaml")).read_text()
         self.assertIn(f"{camera['fx']!r}, 0.5, {camera['cx']!r}", yaml)
         job.write_text(json.dumps(self.job("none.json")))
-        done = throng("run", job, "-o", self.base / "other")
-        self.assertEqual(done.returncode, 2)
+        done = throng("run", job, "-o", self.folder / "other", code=2)
         self.assertIn("/drones/0/camera/calibration", done.stderr)
 
-    def serve(self):
-        server, port = start_service(THRONG, self.base / "data")
-        self.addCleanup(server.wait)
-        self.addCleanup(server.terminate)
-        return port
-
     def test_calibrations_over_http(self):
-        port = self.serve()
-        url = f"http://127.0.0.1:{port}"
-        boundary = "board"
+        url = self.serve()
         request = json.dumps({"name": "wide", "points": "points.csv", "size": "640x480", "lens": "brown2"})
         body = (
-            f'--{boundary}\r\nContent-Disposition: form-data; name="request"\r\n\r\n{request}\r\n'
-            f'--{boundary}\r\nContent-Disposition: form-data; name="file"; filename="points.csv"\r\n\r\n'
-            f"{points_table()}\r\n--{boundary}--\r\n"
+            f'--board\r\nContent-Disposition: form-data; name="request"\r\n\r\n{request}\r\n'
+            f'--board\r\nContent-Disposition: form-data; name="file"; filename="points.csv"\r\n\r\n'
+            f"{points_table()}\r\n--board--\r\n"
         )
-        client = http.client.HTTPConnection("127.0.0.1", port)
-        client.request("POST", "/v1/calibrations", body, {"Content-Type": f"multipart/form-data; boundary={boundary}"})
-        answer = client.getresponse()
-        queued = json.loads(answer.read())
-        self.assertEqual(answer.status, 201, queued)
-        client.close()  # an idle connection lives for two seconds; the next request opens another
-
-        def asked():
-            with urllib.request.urlopen(url + queued["links"]["self"]) as shown:
-                return json.loads(shown.read())
-
-        wait_until(lambda: asked()["state"] in ("succeeded", "failed"))
-        state = asked()
+        with send(url + "/v1/calibrations", body.encode(), kind="multipart/form-data; boundary=board") as answer:
+            self.assertEqual(answer.status, 201)
+            calibration = url + json.load(answer)["links"]["self"]
+        wait_until(lambda: ask(calibration)["state"] in ("succeeded", "failed"))
+        state = ask(calibration)
         self.assertEqual(state["state"], "succeeded", state)
         self.assertAlmostEqual(state["camera"]["fx"], 800, places=3)
         for result, word in (
@@ -263,17 +209,14 @@ class Calibrate(unittest.TestCase):
             ("ros", "camera_name: wide"),
             ("residuals", "<svg"),
         ):
-            with urllib.request.urlopen(url + state["links"][result]) as shown:
+            with send(url + state["links"][result]) as shown:
                 self.assertIn(word, shown.read().decode())
         # A dataset job takes it by its id, and holds the camera itself.
-        client.request("POST", "/v1/jobs", json.dumps(self.job(state["id"])), {"Content-Type": "application/json"})
-        answer = client.getresponse()
-        job = json.loads(answer.read())
-        self.assertEqual(answer.status, 201, job)
+        with send(url + "/v1/jobs", self.job(state["id"])) as answer:
+            self.assertEqual(answer.status, 201)
+            job = json.load(answer)
         self.assertEqual(job["job"]["drones"][0]["camera"]["calibration"]["fx"], state["camera"]["fx"])
-        client.request("DELETE", job["links"]["self"])
-        client.getresponse().read()
-        client.close()
+        send(url + job["links"]["self"], method="DELETE").close()
 
 
 if __name__ == "__main__":

@@ -1,41 +1,30 @@
 """throng check: every mistake at once, estimates, and warnings for jobs that succeed without effect."""
 import json
 import os
-import pathlib
 import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
-import urllib.request
 
-from service import start_service
+from program import FolderTest, printed, throng, write_json
+from service import ask
 
-THRONG = sys.argv.pop(1)
 SQUARE = {"scenario": "city_square/second_nearest", "capture": {"to_s": 5}}
 
 
-class Check(unittest.TestCase):
+class Check(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         # No test has anything from another's jobs.
         os.environ["XDG_CACHE_HOME"] = str(self.folder / "cache")
 
     def write(self, job):
-        file = self.folder / "my.job.json"
-        file.write_text(json.dumps(job))
+        file = write_json(self.folder / "my.job.json", job)
         return file
 
-    def check(self, job, *options):
-        return subprocess.run(
-            [THRONG, "check", str(self.write(job)), *options], capture_output=True, text=True, timeout=300
-        )
+    def check(self, job, *options, code=0):
+        return throng("check", self.write(job), *options, code=code)
 
     def answer(self, **fields):
         done = self.check({**SQUARE, **fields}, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout)
 
     def warned(self, **fields):
@@ -59,10 +48,7 @@ class Check(unittest.TestCase):
         ):
             estimate = self.answer(**{**job, "scenario": job["scenario"]})["estimate"]["disk_bytes"]
             out = self.folder / f"out{number}"
-            done = subprocess.run(
-                [THRONG, "run", self.folder / "my.job.json", "-o", out], capture_output=True, text=True, timeout=300
-            )
-            self.assertEqual(done.returncode, 0, done.stderr)
+            throng("run", self.folder / "my.job.json", "-o", out)
             files = {file.stat().st_ino: file.stat().st_size for file in out.rglob("*") if file.is_file()}
             quotient = estimate / sum(files.values())
             self.assertTrue(1 / 1.5 <= quotient <= 1.5, (job, quotient))
@@ -75,9 +61,9 @@ class Check(unittest.TestCase):
                 "runs": 0,
                 "capture": {"to_s": "soon"},
                 "outputs": {"formats": ["yolo"]},
-            }
+            },
+            code=2,
         )
-        self.assertEqual(done.returncode, 2)
         for expected in (
             '/drone: unknown field "drone"; did you mean "drones"?',
             "/runs: found 0, expected ",
@@ -90,7 +76,9 @@ class Check(unittest.TestCase):
 
     def test_a_mistake_is_reported_once(self):
         """Not again as what its absence would mean."""
-        done = self.check({**SQUARE, "drones": [{"id": "d1", "guidance": {"policy": "orbit", "radius_m": "wide"}}]})
+        done = self.check(
+            {**SQUARE, "drones": [{"id": "d1", "guidance": {"policy": "orbit", "radius_m": "wide"}}]}, code=2
+        )
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn("/drones/0/guidance/radius_m", done.stderr)
 
@@ -111,10 +99,7 @@ class Check(unittest.TestCase):
     def test_the_estimates_are_those_of_a_run(self):
         job = {**SQUARE, "drones": [{"id": "d1", "camera": {"width": 640, "height": 360}}]}
         answer = json.loads(self.check(job, "--json").stdout)
-        done = subprocess.run(
-            [THRONG, "run", self.write(job), "-o", self.folder / "out"], capture_output=True, text=True, timeout=300
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
+        throng("run", self.write(job), "-o", self.folder / "out")
         files = [file for file in (self.folder / "out/dataset").rglob("*") if file.is_file()]
         images = [file for file in files if file.parts[-4] == "images"]
         self.assertEqual(len(images), answer["frames"])
@@ -135,7 +120,7 @@ class Check(unittest.TestCase):
             job = {"scenario": scenario, "drones": [], "capture": {"to_s": to_s, "rate_hz": 0.2}, **fields}
             planned = self.answer(**job)["people"]
             out = self.folder / f"out{number}"
-            subprocess.run([THRONG, "run", self.write(job), "-o", out], check=True, capture_output=True, timeout=300)
+            throng("run", self.write(job), "-o", out)
             # A check loads the first run.
             simulated = json.loads((out / "dataset/metrics.json").read_text())["runs"][0]["people"]
             # People that are sampled come sooner or later than others.
@@ -161,23 +146,19 @@ class Check(unittest.TestCase):
         job = self.write({"scenario": "city_square/everyday", "drones": [], "capture": {"to_s": 5, "rate_hz": 1}})
         learned = self.folder / "cache/throng/speed.json"
 
-        def done(*command):
-            run = {"capture_output": True, "text": True, "timeout": 300, "check": True}
-            return subprocess.run([THRONG, *command], **run).stdout
-
         def estimate():
-            return json.loads(done("check", "--json", job))["estimate"]
+            return json.loads(printed("check", "--json", job))["estimate"]
 
         before = estimate()
         self.assertEqual(before["basis"], "reference machine")
-        self.assertRegex(done("check", job), r"\n  time +about .* of the reference machine\n")
-        done("run", job, "-o", self.folder / "out0")
+        self.assertRegex(printed("check", job), r"\n  time +about .* of the reference machine\n")
+        throng("run", job, "-o", self.folder / "out0")
         factor = json.loads(learned.read_text())["factor"]
         self.assertEqual(estimate()["basis"], "this machine")
         self.assertAlmostEqual(estimate()["cpu_s"], factor * before["cpu_s"], delta=0.051 * (1 + factor))
-        self.assertRegex(done("check", job), r"\n  time +about .* of this machine\n")
+        self.assertRegex(printed("check", job), r"\n  time +about .* of this machine\n")
         learned.write_text('{"factor": 7, "jobs": 8}')
-        done("run", job, "-o", self.folder / "out1")
+        throng("run", job, "-o", self.folder / "out1")
         manifests = [(self.folder / f"out{i}/dataset/manifest.json").read_bytes() for i in range(2)]
         self.assertEqual(manifests[0], manifests[1])
         learned.write_text("[[[")
@@ -190,8 +171,7 @@ class Check(unittest.TestCase):
         self.assertEqual(answer["job"]["outputs"]["annotations"], ["exits"])
         self.assertIn("figures", self.check({**SQUARE, "drones": []}).stdout)
         images = {"annotations": ["events", "depth", "coco"], "formats": ["mot"], "previews": 2}
-        done = self.check({**SQUARE, "drones": [], "outputs": images})
-        self.assertEqual(done.returncode, 2)
+        done = self.check({**SQUARE, "drones": [], "outputs": images}, code=2)
         for pointer in ("annotations/1", "annotations/2", "formats/0", "previews"):
             self.assertRegex(
                 done.stderr, f"/outputs/{pointer}: found .* without drones, .* expected a drone in /drones"
@@ -210,30 +190,20 @@ class Check(unittest.TestCase):
             }
         )
         out = self.folder / "out"
-        done = subprocess.run([THRONG, "run", file, "-o", out], capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = throng("run", file, "-o", out)
         self.assertIn("warning: run000: /scenario: found an alarm at 0 s that none of 260 people noticed", done.stderr)
-        for name in (
-            "metrics.json",
-            "exits/run000.csv",
-            "events/run000.jsonl",
-            "trajectories/run000.npy",
-            "formats/jupedsim/train/run000.txt",
-            "formats/trajnet/train/run000.ndjson",
-        ):
+        for name in """
+            metrics.json exits/run000.csv events/run000.jsonl trajectories/run000.npy
+            formats/jupedsim/train/run000.txt formats/trajnet/train/run000.ndjson""".split():
             self.assertTrue((out / "dataset" / name).is_file(), name)
         self.assertFalse((out / "dataset/images").exists())
-        validate = [THRONG, "validate", out / "dataset"]
-        done = subprocess.run(validate, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stdout)
+        throng("validate", out / "dataset")
         refused = {**job, "outputs": {"annotations": ["coco"]}}
-        done = subprocess.run([THRONG, "run", self.write(refused), "-o", out], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 2)
+        done = throng("run", self.write(refused), "-o", out, code=2)
         self.assertIn("/outputs/annotations/0", done.stderr)
-        self.assertEqual(subprocess.run(validate, capture_output=True).returncode, 0, "what was there before stays")
+        throng("validate", out / "dataset")  # what was there before stays
         (out / "dataset/exits/run000.csv").unlink()
-        done = subprocess.run(validate, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 2)
+        done = throng("validate", out / "dataset", code=2)
         self.assertIn("exits/run000.csv: no such file", done.stdout)
 
     def test_a_wall_left_out_is_said_before_and_after_the_run(self):
@@ -255,27 +225,21 @@ class Check(unittest.TestCase):
             "disasters": [{"kind": "fire", "position": [0, -4], "start_s": 2, "radius_m": 1}],
             "people": {"groups": [{"doing": "stroll", "box": [-9, -6, 9, 6], "count": 60}]},
         }
-        (self.folder / "hall.blueprint.json").write_text(json.dumps(hall))
         scenarios = self.folder / "places"
-        make = [THRONG, "scenario", "make", self.folder / "hall.blueprint.json", "-o", scenarios]
-        subprocess.run(make, check=True, capture_output=True)
+        blueprint = write_json(self.folder / "hall.blueprint.json", hall)
+        throng("scenario", "make", blueprint, "-o", scenarios)
         job = self.write({"scenario": "hall", "seed": 4, "drones": [], "capture": {"to_s": 40}})
-        environment = {**os.environ, "THRONG_SCENARIOS": str(scenarios)}
-        run = [THRONG, "run", job, "-o", self.folder / "hall"]
-        done = subprocess.run(run, capture_output=True, text=True, env=environment)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = throng("run", job, "-o", self.folder / "hall", variables={"THRONG_SCENARIOS": scenarios})
         gap = 'a gap 6.0 m wide at [10, 4], nearest to exit "east"'
         self.assertIn(gap, done.stderr)
         figures = json.loads((self.folder / "hall/dataset/metrics/run000.json").read_text())
         counts = figures["people_counts"]
         self.assertIn(gap, figures["warnings"][0])
-        done_again = subprocess.run(
-            [THRONG, "metrics", self.folder / "hall/work/run000/trace.h5"], capture_output=True, text=True
-        )
+        done_again = throng("metrics", self.folder / "hall/work/run000/trace.h5")
         self.assertIn(gap, done_again.stderr)
         self.assertEqual(json.loads(done_again.stdout)["warnings"], figures["warnings"])
         page = self.folder / "hall.html"
-        subprocess.run([THRONG, "report", self.folder / "hall", "-o", page], check=True, capture_output=True)
+        throng("report", self.folder / "hall", "-o", page)
         self.assertIn("a gap 6.0 m wide at [10, 4]", page.read_text())
         self.assertGreater(counts["left_by_no_exit"], 0)
         self.assertIn(f"warning: run000: {counts['left_by_no_exit']} of 60 people left the place where", done.stderr)
@@ -316,14 +280,11 @@ class Check(unittest.TestCase):
                 "outputs": {"annotations": ["trajectories"], "formats": ["jupedsim", "eth-ucy", "trajnet"]},
             }
         )
-        environment = {**os.environ, "THRONG_SCENARIOS": str(self.folder)}
-        run = {"capture_output": True, "text": True, "env": environment}
-        done = subprocess.run([THRONG, "check", job], **run)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        scenarios = {"THRONG_SCENARIOS": self.folder}
+        done = throng("check", job, variables=scenarios)
         self.assertIn("valid, but its scenario has 1 error", done.stdout)
         out = self.folder / "court"
-        done = subprocess.run([THRONG, "run", job, "-o", out], **run)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = throng("run", job, "-o", out, variables=scenarios)
         self.assertIn('exit "east", behind which walls enclose the ground', done.stderr)
         metrics = json.loads((out / "dataset/metrics/run000.json").read_text())
         self.assertTrue(any('exit "east", behind which' in warning for warning in metrics["warnings"]))
@@ -332,7 +293,6 @@ class Check(unittest.TestCase):
 
     def test_text(self):
         done = self.check({**SQUARE, "environment": {"rain_mm_per_h": 20}})
-        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"my.job.json: valid, 1 warning\n")
         self.assertRegex(done.stdout, r"\n  images +\d+ in \d+ shards?\n")
         self.assertRegex(done.stdout, r"\n  time +about \d+ (s|min) on \d+ cores? of (this|the reference) machine\n")
@@ -374,14 +334,8 @@ class Check(unittest.TestCase):
         self.assertRegex(self.warned(drones=high)["/drones/0/camera"], r"people of at most \d px")
 
     def test_the_dry_run_of_the_service_says_the_same(self):
-        server, port = start_service(THRONG, self.folder / "data")
-        self.addCleanup(server.wait, 120)
-        self.addCleanup(server.terminate)
-        url = f"http://127.0.0.1:{port}/v1/jobs?dry_run"
         job = {**SQUARE, "environment": {"rain_mm_per_h": 20}}
-        request = urllib.request.Request(url, json.dumps(job).encode(), {"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=300) as response:
-            answer = json.loads(response.read())
+        answer = ask(self.serve() + "/v1/jobs?dry_run", job)
         self.assertTrue(answer.pop("valid"))
         self.assertEqual(answer, json.loads(self.check(job, "--json").stdout))
 

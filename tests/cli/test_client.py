@@ -4,16 +4,14 @@ import json
 import os
 import pathlib
 import subprocess
-import sys
 import tarfile
-import tempfile
 import unittest
 import zipfile
 
 from free_ports import free_port
+from program import THRONG, FolderTest, printed, write_json
 from service import start_service, wait_until
 
-THRONG = sys.argv.pop(1)
 
 JOB = {
     "name": "client",
@@ -23,20 +21,17 @@ JOB = {
 }
 
 
-class Client(unittest.TestCase):
+class Client(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.base = pathlib.Path(folder.name)
-        self.job = self.base / "job.json"
-        self.job.write_text(json.dumps(JOB))
+        super().setUp()
+        self.job = write_json(self.folder / "job.json", JOB)
         self.environment = dict(os.environ)
         self.port = free_port()  # at which it comes back
         self.start()
         self.addCleanup(self.stop)
 
     def start(self):
-        self.server, self.port = start_service(THRONG, self.base / "data", port=self.port)
+        self.server, self.port = start_service(THRONG, self.folder / "data", port=self.port)
         self.environment["THRONG_URL"] = f"http://127.0.0.1:{self.port}"
 
     def stop(self):
@@ -44,15 +39,11 @@ class Client(unittest.TestCase):
         self.server.wait(300)
 
     def throng(self, *arguments, code=0):
-        done = subprocess.run(
-            [THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300, env=self.environment
-        )
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout if code == 0 else done.stderr
+        return printed(*arguments, env=self.environment, code=code)
 
     def test_submit_watch_and_fetch(self):
         self.assertRegex(self.throng("submit", self.job, "--dry-run"), r"valid[^$]*, 1 run\n *light [^\n]*\n *images ")
-        archive = self.base / "out.tar"
+        archive = self.folder / "out.tar"
         id_ = self.throng("submit", self.job, "--label", "a b", "--key", "k", "--fetch", archive).split()[0]
         with tarfile.open(archive) as tar:
             names = tar.getnames()
@@ -65,7 +56,7 @@ class Client(unittest.TestCase):
         self.assertEqual(self.throng("watch", id_), "")
         # A download that broke off goes on, and one of another file starts again.
         whole = archive.read_bytes()
-        again = self.base / "again.tar"
+        again = self.folder / "again.tar"
         self.throng("fetch", id_, "-o", again)
         self.assertEqual(again.read_bytes(), whole)
         again.write_text("mine")
@@ -73,10 +64,10 @@ class Client(unittest.TestCase):
         self.assertEqual(again.read_text(), "mine")
         self.throng("fetch", id_, "-o", again, "--force")
         self.assertEqual(again.read_bytes(), whole)
-        self.assertIn("whose folder does not exist", self.throng("fetch", id_, "-o", self.base / "no/x.tar", code=2))
+        self.assertIn("whose folder does not exist", self.throng("fetch", id_, "-o", self.folder / "no/x.tar", code=2))
         self.assertIn("--fetch: found", self.throng("submit", self.job, "--fetch", archive, code=2))
-        part = self.base / "again.tar.part"
-        tag = self.base / "again.tar.part.etag"
+        part = self.folder / "again.tar.part"
+        tag = self.folder / "again.tar.part.etag"
         manifest = [name for name in names if name.endswith("/manifest.json")][0]
         with tarfile.open(archive) as tar:
             etag = '"' + hashlib.sha256(tar.extractfile(manifest).read()).hexdigest() + '"'
@@ -87,14 +78,14 @@ class Client(unittest.TestCase):
             self.throng("fetch", id_, "-o", again)
             self.assertEqual(again.read_bytes(), whole)
             self.assertFalse(part.exists() or tag.exists())
-        zipped = self.base / "part.zip"
+        zipped = self.folder / "part.zip"
         self.throng("fetch", id_, "-o", zipped, "--zip", "--include", "images,coco", "--runs", "0")
         with zipfile.ZipFile(zipped) as part_zip:
             self.assertIsNone(part_zip.testzip())
             tops = {name.split("/")[1] for name in part_zip.namelist()}
         self.assertEqual(tops, {"images", "annotations", "manifest.json"})
         self.assertIn("?runs", self.throng("fetch", id_, "-o", zipped, "--force", "--runs", "7", code=2))
-        trace = self.base / "run.h5"
+        trace = self.folder / "run.h5"
         self.throng("fetch", id_, "--trace", "0", "-o", trace)
         self.assertIn("people", json.loads(self.throng("metrics", trace)))
         self.assertIn("no run 7", self.throng("fetch", id_, "--trace", "7", "--force", "-o", trace, code=2))
@@ -110,12 +101,11 @@ class Client(unittest.TestCase):
             ],
             "policies": [{"id": "none"}, {"id": "same"}],
         }
-        file = self.base / "study.json"
-        file.write_text(json.dumps(study))
+        file = write_json(self.folder / "study.json", study)
         self.assertIn("40 simulations", self.throng("studies", "submit", file, "--dry-run"))
         self.assertIn("expected a study; a job is for `throng run`", self.throng("studies", "submit", self.job, code=2))
         id_ = self.throng("studies", "submit", file).strip()
-        runs = self.base / "data" / "studies" / id_ / "runs"
+        runs = self.folder / "data" / "studies" / id_ / "runs"
         wait_until(lambda: len(list(runs.glob("*/*/*.json"))) >= 5)
         self.server.kill()
         self.server.wait(300)
@@ -125,11 +115,11 @@ class Client(unittest.TestCase):
         self.throng("studies", "watch", id_)
         self.assertEqual({path: path.stat().st_mtime_ns for path in finished}, finished)
         self.assertRegex(self.throng("studies", "list"), rf"{id_} +succeeded +100%")
-        self.throng("studies", "fetch", id_, "-o", self.base / "fetched")
-        self.throng("study", file, "-o", self.base / "here")
+        self.throng("studies", "fetch", id_, "-o", self.folder / "fetched")
+        self.throng("study", file, "-o", self.folder / "here")
         for name in ("summary.json", "summary.csv", "summary.md", "values.json", "report.html"):
             self.assertEqual(
-                (self.base / "fetched" / name).read_bytes(), (self.base / "here" / name).read_bytes(), name
+                (self.folder / "fetched" / name).read_bytes(), (self.folder / "here" / name).read_bytes(), name
             )
         self.throng("studies", "cancel", id_)  # it has ended: nothing is left to cancel
         self.assertRegex(self.throng("studies", "list"), rf"{id_} +succeeded")
@@ -149,7 +139,7 @@ class Client(unittest.TestCase):
         # A worker finds the scenario that came with its job.
         self.job.write_text(json.dumps({**JOB, "scenario": "bundle/nearest_exit"}))
         id_ = self.throng("submit", self.job, "--scenario", place, "--watch").split()[0]
-        bundles = self.base / "data" / "uploads"
+        bundles = self.folder / "data" / "uploads"
         self.assertEqual(len(list(bundles.iterdir())), 1)
         self.throng("remove", id_)
         self.assertEqual(list(bundles.iterdir()), [])
@@ -157,7 +147,7 @@ class Client(unittest.TestCase):
     def test_mistakes_and_missing_servers_have_their_exit_codes(self):
         self.job.write_text(json.dumps({**JOB, "runs": 0}))
         self.assertIn("/runs", self.throng("submit", self.job, code=2))
-        self.assertIn("no such file", self.throng("submit", self.base / "none.json", code=2))
+        self.assertIn("no such file", self.throng("submit", self.folder / "none.json", code=2))
         self.assertIn("jnosuchjob000000", self.throng("cancel", "jnosuchjob000000", code=2))
         self.environment["THRONG_URL"] = "127.0.0.1"
         self.assertIn("THRONG_URL", self.throng("jobs", code=2))
@@ -167,9 +157,9 @@ class Client(unittest.TestCase):
     def test_report_of_a_job(self):
         self.job.write_text(json.dumps({**JOB, "scenario": {"generate": {"kind": "plaza", "seed": 5}}}))
         id_ = self.throng("submit", self.job, "--watch").split()[0]
-        pages = [self.base / "of_server.html", self.base / "of_folder.html"]
+        pages = [self.folder / "of_server.html", self.folder / "of_folder.html"]
         self.throng("report", id_, "-o", pages[0])
-        self.throng("report", self.base / "data" / "jobs" / id_, "-o", pages[1])
+        self.throng("report", self.folder / "data" / "jobs" / id_, "-o", pages[1])
         self.assertTrue("Generated plaza 5" in pages[0].read_text())
         self.assertTrue(pages[0].read_bytes() == pages[1].read_bytes())
         self.throng("remove", id_)
@@ -201,7 +191,7 @@ class Client(unittest.TestCase):
         self.assertEqual(watcher.wait(300), 0)
 
     def test_keys(self):
-        data = self.base / "data"
+        data = self.folder / "data"
         key = self.throng("keys", "create", "alice", "--scope", "read", "--data", data).strip()
         self.assertIn("needs a key", self.throng("jobs", code=2))
         self.environment["THRONG_KEY"] = key

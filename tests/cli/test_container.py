@@ -5,19 +5,16 @@ usage: test_container.py THRONG
 """
 import json
 import os
-import pathlib
 import re
 import signal
-import subprocess
-import sys
 import tempfile
 import unittest
 import urllib.error
 import urllib.request
 
-from service import ServiceEnded, start_service
+from program import THRONG, FolderTest, throng
+from service import ServiceEnded, send, start_service
 
-THRONG = sys.argv.pop(1)
 CONTAINER = {**os.environ, "THRONG_CONTAINER": "1"}
 OUTSIDE = {name: value for name, value in os.environ.items() if name != "THRONG_CONTAINER"}
 
@@ -26,21 +23,16 @@ SECRET = "b1946ac92492d2347c6235b4d2611184b1946ac92492d234"
 
 def status(port, key=None):
     """HTTP status of the list of jobs."""
-    request = urllib.request.Request(f"http://127.0.0.1:{port}/v1/jobs")
-    if key:
-        request.add_header("Authorization", f"Bearer {key}")
     try:
-        with urllib.request.urlopen(request, timeout=60) as answer:
+        with send(f"http://127.0.0.1:{port}/v1/jobs", key=key) as answer:
             return answer.status
     except urllib.error.HTTPError as error:
         return error.code
 
 
-class Container(unittest.TestCase):
+class Container(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.data = self.folder / "data"
 
     def start(self, **environment):
@@ -79,14 +71,9 @@ class Container(unittest.TestCase):
 
     def refusal(self, file, *arguments):
         """The message of a service that does not start because of its key file."""
-        done = subprocess.run(
-            [THRONG, "serve", "--data", self.data, "--port", "0", *arguments],
-            env={**OUTSIDE, "THRONG_ADMIN_KEY_FILE": file},
-            capture_output=True,
-            text=True,
-            timeout=60,
-        )
-        self.assertEqual(done.returncode, 2, done.stderr)
+        variables = {"THRONG_ADMIN_KEY_FILE": file}
+        serve = ("serve", "--data", self.data, "--port", 0, *arguments)
+        done = throng(*serve, env={**OUTSIDE, **variables}, code=2)
         return done.stderr
 
     def test_the_key_can_come_from_a_file(self):
@@ -110,17 +97,16 @@ class Container(unittest.TestCase):
                     self.assertEqual(process.wait(60), 0)
 
     def test_the_key_of_the_file_is_valid_beside_others(self):
-        made = subprocess.run([THRONG, "keys", "create", "other", "--data", self.data], capture_output=True, text=True)
-        self.assertEqual(made.returncode, 0, made.stderr)
+        throng("keys", "create", "other", "--data", self.data)
         for secret in (SECRET, SECRET[::-1], SECRET[::-1]):
             port = self.start(THRONG_ADMIN_KEY_FILE=self.key_file(secret))
             self.assertEqual(status(port, secret), 200)
             self.end()
-        listed = subprocess.run([THRONG, "keys", "list", "--data", self.data], capture_output=True, text=True)
+        listed = throng("keys", "list", "--data", self.data)
         ids = [line.split()[0] for line in listed.stdout.splitlines() if "administrator" in line]
         self.assertEqual(len(ids), 2, listed.stdout)
         for key in ids:
-            subprocess.run([THRONG, "keys", "revoke", key, "--data", self.data], check=True, capture_output=True)
+            throng("keys", "revoke", key, "--data", self.data)
         self.assertIn("which was revoked", self.refusal(self.key_file(SECRET)))
 
     def test_wrong_key_files_are_refused_on_every_address(self):

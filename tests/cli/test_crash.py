@@ -17,16 +17,15 @@ import shutil
 import signal
 import sqlite3
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 import urllib.error
 import urllib.request
 
-from service import ServiceEnded, start_service, wait_until
+from program import THRONG, FolderTest, throng
+from service import ServiceEnded, ask, start_service, wait_until
 
-THRONG = sys.argv.pop(1)
 CRASHES = int(os.environ.get("THRONG_CRASHES", "1"))
 IS_LONG = bool(os.environ.get("THRONG_LONG"))
 
@@ -79,7 +78,7 @@ def is_alive(pid):
 
 class Server:
     def __init__(self, base, data=None, options=()):
-        self.base = base
+        self.folder = base
         self.data = data or base / "data"
         self.options = options
         self.process = None
@@ -116,13 +115,8 @@ class Server:
         return bool(workers)
 
     def request(self, method, path, body=None, timeout_s=300):
-        data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(
-            self.url + path, data=data, method=method, headers={"Content-Type": "application/json"}
-        )
         try:
-            with urllib.request.urlopen(request, timeout=timeout_s) as answer:
-                return json.loads(answer.read() or b"null")
+            return ask(self.url + path, body, method=method, timeout_s=timeout_s)
         except http.client.HTTPException as error:  # the server died in the midst of its answer
             raise ConnectionResetError(f"{method} {path}: {error}") from error
 
@@ -141,7 +135,7 @@ class Server:
         return digest.hexdigest()
 
 
-class Crash(unittest.TestCase):
+class Crash(FolderTest):
     @classmethod
     def setUpClass(cls):
         """Result and duration of an undisturbed job."""
@@ -160,10 +154,8 @@ class Crash(unittest.TestCase):
         cls.undisturbed.cleanup()
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.base = pathlib.Path(folder.name)
-        self.server = Server(self.base)
+        super().setUp()
+        self.server = Server(self.folder)
         self.addCleanup(lambda: self.server.stop())
         self.random = random.Random(self.id())
 
@@ -251,7 +243,7 @@ class Crash(unittest.TestCase):
                     self.assertEqual(len(jobs), 1, "what was accepted is there, once")
                     self.expect_undisturbed(jobs[0]["id"])
                     self.server.stop()
-                    self.server = Server(self.base)
+                    self.server = Server(self.folder)
 
     def test_the_server_dies_when_a_job_is_cancelled_or_retried_or_fails(self):
         changes = (
@@ -283,7 +275,7 @@ class Crash(unittest.TestCase):
                         self.server.request("POST", f"/v1/jobs/{job}/retry")
                     self.expect_undisturbed(job)
                     self.server.stop()
-                    self.server = Server(self.base)
+                    self.server = Server(self.folder)
 
     def test_a_run_whose_worker_always_dies_leaves_the_others(self):
         self.server.start(faults="die:run001/shard0000")
@@ -293,15 +285,12 @@ class Crash(unittest.TestCase):
         self.assertEqual([run["run"] for run in end["error"]["runs"]], ["run001"])
         self.assertEqual(end["error"]["runs"][0]["attempts"], 3)
         self.assertIn("signal 9", end["error"]["runs"][0]["message"])
-        self.assertNotIn(str(self.base), json.dumps(end))
+        self.assertNotIn(str(self.folder), json.dumps(end))
         manifest = self.server.request("GET", f"/v1/jobs/{job}/manifest")
         self.assertEqual([run["run"] for run in manifest["runs"]], ["run000"])
         self.assertEqual(manifest["failed_runs"], [{"run": "run001", "task": "run001/shard0000"}])
         # Everything present is complete.
-        checked = subprocess.run(
-            [THRONG, "validate", str(self.server.data / "jobs" / job / "dataset")], capture_output=True, text=True
-        )
-        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        throng("validate", self.server.data / "jobs" / job / "dataset")
         self.server.kill()
         self.server.start()
         self.server.request("POST", f"/v1/jobs/{job}/retry")
@@ -364,7 +353,7 @@ class Crash(unittest.TestCase):
             return error.code
 
     def use_a_small_disk(self):
-        disk = self.base / "disk"
+        disk = self.folder / "disk"
         disk.mkdir()
         mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64m", "tmpfs", str(disk)], capture_output=True)
         if mounted.returncode != 0:
@@ -431,7 +420,7 @@ class Crash(unittest.TestCase):
         print(f"ended in {took_s:.1f} s with a job at work and 20 event streams")
         # Process 1 of a namespace of its own has no default action for SIGTERM, as in a container.
         self.server.stop()
-        port_file = self.base / "port1"
+        port_file = self.folder / "port1"
         first = subprocess.Popen(
             [
                 "unshare",

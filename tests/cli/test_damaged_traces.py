@@ -4,18 +4,16 @@ and is never ended by a signal. The HDF5 library itself crashes on some of these
 usage: test_damaged_traces.py THRONG
 """
 import concurrent.futures
-import json
 import os
 import pathlib
 import random
 import re
 import shutil
-import subprocess
-import sys
 import tempfile
 import unittest
 
-THRONG = sys.argv.pop(1)
+import program
+
 JOB = {
     "scenario": "city_square/emergency",
     "seed": 3,
@@ -26,8 +24,8 @@ BYTE_DAMAGES = 16
 CRASH = "a damaged HDF5 file, which cannot be read"
 
 
-def throng(*arguments):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, errors="replace", timeout=300)
+def throng(*words):
+    return program.throng(*words, errors="replace", code=None)
 
 
 def address_damages(data):
@@ -73,14 +71,11 @@ def byte_damages(data):
 class DamagedTraces(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.temporary.name)
-        cls.job = cls.folder / "job.json"
-        cls.job.write_text(json.dumps(JOB))
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.job = program.write_json(cls.folder / "job.json", JOB)
         cls.sound = cls.folder / "sound.h5"
-        done = throng("simulate", cls.job, "-o", cls.sound)
-        assert done.returncode == 0, done.stderr
-        assert throng("metrics", cls.sound).returncode == 0
+        program.throng("simulate", cls.job, "-o", cls.sound)
+        program.throng("metrics", cls.sound)
         cls.files = []
         data = cls.sound.read_bytes()
         addresses = list(address_damages(data))[:: 1 if os.environ.get("THRONG_LONG") else 4]
@@ -88,10 +83,6 @@ class DamagedTraces(unittest.TestCase):
             file = cls.folder / f"damaged{len(cls.files)}.h5"
             file.write_bytes(content)
             cls.files.append((name, file))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def check(self, name, file, done):
         """Whether the file was refused; fails unless the command ended as it should."""
@@ -135,15 +126,12 @@ class DamagedTraces(unittest.TestCase):
 
     def test_a_job_makes_its_own_trace_again(self):
         """The trace of a run that was interrupted is damaged, also in ways at which the library crashes."""
-        job = self.folder / "small.job.json"
         small = {
             "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120}}],
             "outputs": {"annotations": ["coco"]},
         }
-        job.write_text(json.dumps({**JOB, "capture": {"rate_hz": 1, "from_s": 0, "to_s": 2}, **small}))
-        output = self.folder / "run"
-        done = throng("run", job, "-o", output)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        job = {**JOB, "capture": {"rate_hz": 1, "from_s": 0, "to_s": 2}, **small}
+        output = program.made(self.folder, job, "small")
         manifest = (output / "dataset" / "manifest.json").read_bytes()
         trace = output / "work" / "run000" / "trace.h5"
         sound = trace.read_bytes()
@@ -154,8 +142,7 @@ class DamagedTraces(unittest.TestCase):
             for left in (output / "dataset", *trace.parent.glob("shard*")):
                 shutil.rmtree(left)
             trace.write_bytes(damaged)
-            done = throng("run", job, "-o", output)
-            self.assertEqual(done.returncode, 0, done.stderr[-2000:])
+            program.throng("run", self.folder / "small.json", "-o", output)
             self.assertEqual(trace.read_bytes(), sound)
             self.assertEqual((output / "dataset" / "manifest.json").read_bytes(), manifest)
 

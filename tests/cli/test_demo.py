@@ -6,13 +6,11 @@ usage: test_demo.py THRONG
 import collections
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-THRONG = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, throng
+
 # People whose box covers at least this many pixels of an image 640 pixels wide; smaller ones are hardly seen.
 LEAST_AREA_PX = 12
 LEAST_PEOPLE = {"overview": 100, "d1": 30}
@@ -28,13 +26,7 @@ class Demo(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             (folder / "demo.job.json").write_text(json.dumps(job))
-            said = subprocess.run(
-                [THRONG, "run", folder / "demo.job.json", "-o", folder / "out"],
-                check=True,
-                capture_output=True,
-                cwd=ROOT,
-                text=True,
-            )
+            said = throng("run", folder / "demo.job.json", "-o", folder / "out", cwd=ROOT)
             cls.messages = said.stderr
             cls.labels = json.loads((folder / "out/dataset/annotations/instances.json").read_text())
             cls.metrics = json.loads((folder / "out/dataset/metrics/run000.json").read_text())
@@ -56,12 +48,7 @@ class Demo(unittest.TestCase):
         self.assertLess(self.metrics["alarm_s"], last_s / 2 + 2)
 
     def test_check_says_how_many_people_take_part(self):
-        done = subprocess.run(
-            [THRONG, "check", "--json", ROOT / "scenarios/city_square/demo.job.json"],
-            check=True,
-            capture_output=True,
-            text=True,
-        )
+        done = throng("check", "--json", ROOT / "scenarios/city_square/demo.job.json")
         self.assertAlmostEqual(json.loads(done.stdout)["people"] / self.metrics["people"], 1, delta=0.1)
 
     def test_it_ends_without_a_warning(self):

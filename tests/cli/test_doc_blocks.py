@@ -15,8 +15,8 @@ import sys
 import tempfile
 import unittest
 
-THRONG = pathlib.Path(sys.argv.pop(1)).resolve()
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, THRONG
+
 sys.path[:0] = [str(pathlib.Path(__file__).parent), str(ROOT / "scripts")]
 import doc_fixtures as fixtures  # noqa: E402
 from doc_blocks import read_blocks, save_files  # noqa: E402

@@ -4,7 +4,6 @@ import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,8 +11,8 @@ import unittest
 import numpy
 from PIL import Image
 
-THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, THRONG, run, throng
+
 sys.path[:0] = [str(pathlib.Path(__file__).parent), str(ROOT / "scripts")]
 import doc_fixtures  # noqa: E402
 from doc_blocks import read_blocks  # noqa: E402
@@ -72,19 +71,7 @@ class Docs(unittest.TestCase):
 
     def test_every_variable_is_in_the_table(self):
         table = (ROOT / "docs" / "troubleshooting.md").read_text()
-        folders = [
-            "base",
-            "cli",
-            "crowd",
-            "jobs",
-            "render",
-            "server",
-            "sim",
-            "skinning",
-            "world",
-            "python/throng",
-            "scripts",
-        ]
+        folders = "base cli crowd jobs render server sim skinning world python/throng scripts".split()
         used = set()
         for folder in folders:
             for file in (ROOT / folder).rglob("*"):
@@ -109,7 +96,7 @@ class Docs(unittest.TestCase):
                 for count in (2, 1):
                     command = tuple(words[:count])
                     if command not in helps:
-                        done = subprocess.run([THRONG, "help", *command], capture_output=True, text=True, timeout=300)
+                        done = throng("help", *command, code=None)
                         helps[command] = done.stdout if done.returncode == 0 else None
                     if helps[command] is not None:
                         break
@@ -139,14 +126,8 @@ class Docs(unittest.TestCase):
                     continue
                 (folder / "job.json").write_text(recipe)
                 scenarios = folder / "mine" if document["scenario"] == "hall" else ROOT / "scenarios"
-                done = subprocess.run(
-                    [THRONG, "check", folder / "job.json"],
-                    capture_output=True,
-                    text=True,
-                    timeout=600,
-                    env={**os.environ, "THRONG_SCENARIOS": str(scenarios)},
-                )
-                self.assertEqual(done.returncode, 0, recipe + done.stderr)
+                with self.subTest(recipe=recipe):
+                    throng("check", folder / "job.json", variables={"THRONG_SCENARIOS": scenarios})
         self.assertGreaterEqual(jobs, 20)
 
     def test_images_of_a_set_are_of_many_runs(self):
@@ -173,14 +154,7 @@ class Docs(unittest.TestCase):
             folder = pathlib.Path(name)
             (folder / "job.json").write_text(json.dumps(job))
             people = doc_fixtures.character_library(folder, THRONG)
-            subprocess.run(
-                [THRONG, "run", "job.json", "-o", "out"],
-                cwd=folder,
-                check=True,
-                capture_output=True,
-                timeout=600,
-                env={**os.environ, "THRONG_PEOPLE": str(people)},
-            )
+            throng("run", "job.json", "-o", "out", cwd=folder, variables={"THRONG_PEOPLE": people})
             files = sorted((folder / "out/dataset/images").rglob("*.jpg"))
             small = [numpy.asarray(Image.open(file).convert("L").resize((32, 18)), float) for file in files]
         self.assertEqual(len(small), job["runs"])
@@ -192,17 +166,13 @@ class Docs(unittest.TestCase):
         if not packages:
             return {}
         command = ["dpkg-query", "-W", "-f", "${Package} ${Provides}\\n", *packages]
-        lines = subprocess.run(command, capture_output=True, text=True).stdout.splitlines()
+        lines = run(*command, code=None).stdout.splitlines()
         words = [re.sub(r"\([^)]*\)|,", " ", line).split() for line in lines]
         return {package: set(provided) for package, *provided in filter(None, words)}
 
     def test_the_notice_names_every_linked_library(self):
-        needed = re.findall(
-            r"NEEDED.*\[(.*)\]", subprocess.run(["readelf", "-d", THRONG], capture_output=True, text=True).stdout
-        )
-        places = dict(
-            re.findall(r"(\S+) => (/\S+)", subprocess.run(["ldd", THRONG], capture_output=True, text=True).stdout)
-        )
+        needed = re.findall(r"NEEDED.*\[(.*)\]", run("readelf", "-d", THRONG).stdout)
+        places = dict(re.findall(r"(\S+) => (/\S+)", run("ldd", THRONG).stdout))
         notice = (ROOT / "NOTICE").read_text()
         named = set(re.findall(r"^  (\S+) ", notice, re.M))
         owners = set()
@@ -211,7 +181,7 @@ class Docs(unittest.TestCase):
                 continue
             place = str(pathlib.Path(places[library]).resolve())
             for file in (place, place.removeprefix("/usr")):
-                owner = subprocess.run(["dpkg-query", "-S", file], capture_output=True, text=True)
+                owner = run("dpkg-query", "-S", file, code=None)
                 if owner.returncode == 0:
                     owners.add(owner.stdout.split(":")[0])
                     break

@@ -7,15 +7,14 @@ children, who do, build no mesh for paths that nobody walks.
 Prints CPU time and memory of the server's process for dry runs of a concert with 9 000 people, and CPU time of the
 children for a stadium's exit, and fails above limits that leave room for a slow machine.
 """
-import json
 import os
 import pathlib
 import re
 import statistics
-import subprocess
 import sys
 import tempfile
-import urllib.request
+
+from service import ask, start_service
 
 JOB = {"scenario": "concert/everyday", "crowd": {"agents": 9000}}
 REPETITIONS = 4
@@ -54,38 +53,25 @@ def resident_mib(pid):
     return int(re.search(r"VmRSS:\s+(\d+)", pathlib.Path(f"/proc/{pid}/status").read_text())[1]) / 1024
 
 
-def dry_run(url, job):
-    request = urllib.request.Request(
-        f"{url}/v1/jobs?dry_run", json.dumps(job).encode(), {"Content-Type": "application/json"}
-    )
-    with urllib.request.urlopen(request, timeout=300) as answer:
-        return json.load(answer)
-
-
 def main():
     throng = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
-        server = subprocess.Popen(
-            [throng, "serve", "--data", os.path.join(folder, "data"), "--port", "0"],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            text=True,
-        )
+        server, port = start_service(throng, f"{folder}/data")
         try:
-            url = re.search(r"http://\S+", server.stdout.readline())[0]
-            dry_run(url, {**JOB, "crowd": {}})  # schemas are read, the process that forks checks runs
+            dry_run = f"http://127.0.0.1:{port}/v1/jobs?dry_run"
+            ask(dry_run, {**JOB, "crowd": {}})  # schemas are read, the process that forks checks runs
             memory = resident_mib(server.pid)
             answers, costs = [], []
             for _ in range(REPETITIONS):
                 cpu = cpu_s(server.pid)
-                answers.append(dry_run(url, JOB))
+                answers.append(ask(dry_run, JOB))
                 costs.append(cpu_s(server.pid) - cpu)
             assert answers[0]["valid"] and answers[0]["job"]["crowd"]["agents"] == 9000, answers[0]
             assert all(answer == answers[0] for answer in answers)
             grown = resident_mib(server.pid) - memory
             cpu = tree_cpu_s(server.pid)
             for seed in range(REPETITIONS):
-                dry_run(url, {**MESHED_JOB, "seed": seed})
+                ask(dry_run, {**MESHED_JOB, "seed": seed})
             child = (tree_cpu_s(server.pid) - cpu) / REPETITIONS
         finally:
             server.terminate()

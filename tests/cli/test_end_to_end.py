@@ -13,12 +13,11 @@ import tarfile
 import tempfile
 import unittest
 import urllib.error
-import urllib.request
 
 from check_dataset import check_dataset
-from service import start_service, wait_until
+from program import THRONG, FolderTest, made, run, throng, write_json
+from service import ask, send, wait_until
 
-THRONG = sys.argv.pop(1)
 
 JOB = {
     "name": "end to end",
@@ -36,47 +35,26 @@ JOB = {
     "capture": {"rate_hz": 2, "from_s": 1, "to_s": 5},
     "outputs": {
         "annotations": ["coco", "keypoints", "density", "exits", "depth", "instances", "flow"],
-        "formats": [
-            "coco",
-            "coco-keypoints",
-            "coco-panoptic",
-            "yolo-detect",
-            "yolo-segment",
-            "yolo-pose",
-            "mot",
-            "mots",
-            "visdrone-det",
-            "visdrone-mot",
-        ],
+        "formats": """
+            coco coco-keypoints coco-panoptic yolo-detect yolo-segment yolo-pose mot mots visdrone-det
+            visdrone-mot""".split(),
         "splits": {"val_runs": [1]},
         "filters": {"min_visibility": 0.1},
     },
 }
 
 
-def throng(*arguments, **options):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
-
-
 def files_of(folder):
     return {str(p.relative_to(folder)): p for p in pathlib.Path(folder).rglob("*") if p.is_file()}
 
 
-class EndToEnd(unittest.TestCase):
+class EndToEnd(FolderTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.base = pathlib.Path(cls.folder.name)
-        cls.job = cls.base / "job.json"
-        cls.job.write_text(json.dumps(JOB))
-        cls.first = cls.base / "first"
-        done = throng("run", cls.job, "-o", cls.first)
-        assert done.returncode == 0, done.stderr
+        cls.base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.first = made(cls.base, JOB, "first")
+        cls.job = cls.base / "first.json"
         cls.dataset = cls.first / "dataset"
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def assert_same_dataset(self, other):
         mine, theirs = files_of(self.dataset), files_of(other)
@@ -87,10 +65,8 @@ class EndToEnd(unittest.TestCase):
     def bad_job(self, change, *expected):
         job = json.loads(json.dumps(JOB))
         change(job)
-        path = self.base / "bad.json"
-        path.write_text(json.dumps(job))
-        result = throng("run", path, "-o", self.base / "never")
-        self.assertEqual(result.returncode, 2, result.stderr)
+        path = write_json(self.base / "bad.json", job)
+        result = throng("run", path, "-o", self.base / "never", code=2)
         for text in ("bad.json", *expected):
             self.assertIn(text, result.stderr)
         self.assertFalse((self.base / "never" / "dataset").exists())
@@ -101,14 +77,12 @@ class EndToEnd(unittest.TestCase):
         self.assertGreater(annotations, 500)
 
     def test_validation_agrees_and_notices_a_changed_byte(self):
-        done = throng("validate", self.dataset)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        throng("validate", self.dataset)
         damaged = self.base / "damaged"
         shutil.copytree(self.dataset, damaged)
         picture = damaged / "images/run001/d1/000003.jpg"
         picture.write_bytes(picture.read_bytes()[:-1] + b"x")
-        done = throng("validate", damaged)
-        self.assertEqual(done.returncode, 2)
+        done = throng("validate", damaged, code=2)
         self.assertIn("images/run001/d1/000003.jpg: its SHA-256", done.stdout)
 
     def test_snippets_of_the_readme_run(self):
@@ -116,8 +90,7 @@ class EndToEnd(unittest.TestCase):
         snippets = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
         self.assertEqual(len(snippets), 3)
         for snippet in snippets:
-            done = subprocess.run([sys.executable, "-c", snippet], cwd=self.dataset, capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            run(sys.executable, "-c", snippet, cwd=self.dataset)
 
     def test_dataset_json_counts_what_is_there(self):
         card = json.loads((self.dataset / "dataset.json").read_text())
@@ -131,20 +104,16 @@ class EndToEnd(unittest.TestCase):
 
     def test_same_seed_gives_the_same_bytes_whatever_the_number_of_workers(self):
         again = self.base / "again"
-        done = throng("run", self.job, "-o", again, "--workers", 1)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        throng("run", self.job, "-o", again, "--workers", 1)
         self.assert_same_dataset(again / "dataset")
-        for run in ("run000", "run001"):
+        for name in ("run000", "run001"):
             self.assertTrue(
-                filecmp.cmp(self.first / "work" / run / "trace.h5", again / "work" / run / "trace.h5", shallow=False)
+                filecmp.cmp(self.first / "work" / name / "trace.h5", again / "work" / name / "trace.h5", shallow=False)
             )
 
     def test_another_seed_gives_other_pictures(self):
         job = dict(JOB, seed=4, runs=1, outputs={})
-        path = self.base / "other.json"
-        path.write_text(json.dumps(job))
-        done = throng("run", path, "-o", self.base / "other")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        made(self.base, job, "other")
         name = "images/run000/d1/000006.jpg"
         self.assertFalse(filecmp.cmp(self.dataset / name, self.base / "other/dataset" / name, shallow=False))
 
@@ -160,11 +129,8 @@ class EndToEnd(unittest.TestCase):
                 crowd={"agents": 20},
             )
             job["drones"][0]["camera"]["sensor"] = sensor
-            path = self.base / f"night_{name}.json"
-            path.write_text(json.dumps(job))
-            done = throng("run", path, "-o", self.base / f"night_{name}")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            coco = json.loads((self.base / f"night_{name}/dataset/annotations/instances.json").read_text())
+            night = made(self.base, job, f"night_{name}")
+            coco = json.loads((night / "dataset/annotations/instances.json").read_text())
             records[name] = coco["images"][0]["sensor"]
         self.assertEqual(records["default"]["iso"], 1600)
         self.assertNotAlmostEqual(records["default"]["exposure_gain"], 1, 2)
@@ -172,12 +138,10 @@ class EndToEnd(unittest.TestCase):
 
     def test_simulate_then_render_is_the_same_as_run(self):
         trace = self.base / "alone.h5"
-        done = throng("simulate", self.job, "--run", 1, "-o", trace)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        throng("simulate", self.job, "--run", 1, "-o", trace)
         self.assertTrue(filecmp.cmp(trace, self.first / "work/run001/trace.h5", shallow=False))
         rendered = self.base / "rendered"
-        done = throng("render", self.job, "--trace", trace, "-o", rendered)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        throng("render", self.job, "--trace", trace, "-o", rendered)
         self.assertTrue(
             filecmp.cmp(
                 self.dataset / "images/run001/d1/000006.jpg",
@@ -207,8 +171,7 @@ class EndToEnd(unittest.TestCase):
     def test_unwritable_output_is_the_environments_fault(self):
         blocker = self.base / "file"
         blocker.write_text("not a folder")
-        result = throng("run", self.job, "-o", blocker / "out")
-        self.assertEqual(result.returncode, 3, result.stderr)
+        result = throng("run", self.job, "-o", blocker / "out", code=3)
         self.assertIn("file", result.stderr)
 
     def test_an_interrupt_cancels_and_a_second_run_resumes(self):
@@ -225,66 +188,27 @@ class EndToEnd(unittest.TestCase):
         _, errors = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 130, errors)
         self.assertFalse((out / "dataset" / "manifest.json").exists())
-        done = throng("run", self.job, "-o", out)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        throng("run", self.job, "-o", out)
         self.assert_same_dataset(out / "dataset")
 
     def test_the_server_makes_the_same_bytes(self):
-        data = self.base / "data"
-        server = Server(data)
-        try:
-            job = server.post("/v1/jobs", JOB)["id"]
-            wait_until(lambda: server.get(f"/v1/jobs/{job}")["state"] not in ("queued", "running"))
-            self.assertEqual(server.get(f"/v1/jobs/{job}")["state"], "succeeded")
-            unpacked = self.base / "unpacked"
-            with tarfile.open(fileobj=io.BytesIO(server.get_bytes(f"/v1/jobs/{job}/archive"))) as archive:
-                archive.extractall(unpacked)
-            (root,) = unpacked.iterdir()
-            self.assert_same_dataset(root)
-            metrics = server.get(f"/v1/jobs/{job}/metrics")
-            self.assertEqual(len(metrics["runs"]), 2)
-        finally:
-            server.stop()
+        url = self.serve()
+        job = url + "/v1/jobs/" + ask(url + "/v1/jobs", JOB)["id"]
+        wait_until(lambda: ask(job)["state"] not in ("queued", "running"))
+        self.assertEqual(ask(job)["state"], "succeeded")
+        unpacked = self.folder / "unpacked"
+        with tarfile.open(fileobj=io.BytesIO(send(job + "/archive").read())) as archive:
+            archive.extractall(unpacked)
+        (root,) = unpacked.iterdir()
+        self.assert_same_dataset(root)
+        self.assertEqual(len(ask(job + "/metrics")["runs"]), 2)
 
     def test_server_answers_bad_jobs_with_pointers(self):
-        server = Server(self.base / "data2")
-        try:
-            with self.assertRaises(urllib.error.HTTPError) as caught:
-                server.post("/v1/jobs", dict(JOB, runs=0, colour="red"))
-            self.assertEqual(caught.exception.code, 400)
-            pointers = {e["pointer"] for e in json.load(caught.exception)["errors"]}
-            self.assertEqual(pointers, {"/runs", "/colour"})
-        finally:
-            server.stop()
-
-
-class Server:
-    def __init__(self, data):
-        self.process, port = start_service(THRONG, data)
-        self.url = f"http://127.0.0.1:{port}"
-
-    def get_bytes(self, path):
-        with urllib.request.urlopen(self.url + path, timeout=300) as answer:
-            return answer.read()
-
-    def get(self, path):
-        return json.loads(self.get_bytes(path))
-
-    def post(self, path, body):
-        request = urllib.request.Request(
-            self.url + path, json.dumps(body).encode(), {"Content-Type": "application/json"}
-        )
-        with urllib.request.urlopen(request, timeout=300) as answer:
-            self.location = answer.headers["Location"]
-            return json.load(answer)
-
-    def stop(self):
-        self.process.terminate()
-        try:
-            self.process.wait(120)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            raise
+        with self.assertRaises(urllib.error.HTTPError) as caught:
+            ask(self.serve() + "/v1/jobs", dict(JOB, runs=0, colour="red"))
+        self.assertEqual(caught.exception.code, 400)
+        pointers = {e["pointer"] for e in json.load(caught.exception)["errors"]}
+        self.assertEqual(pointers, {"/runs", "/colour"})
 
 
 if __name__ == "__main__":

@@ -3,19 +3,15 @@ import filecmp
 import json
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
 
-THRONG = sys.argv.pop(1)
+from program import THRONG, throng, write_json
+
 
 DRONE = {"camera": {"width": 160, "height": 100, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90}}
 # Their layouts have no place for splits.
 WITHOUT_SPLITS = {"depth-exr", "flow-flo"}
-
-
-def throng(*arguments):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300)
 
 
 def files_of(folder):
@@ -32,8 +28,7 @@ def differing_files(left, right):
 class Export(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.base = pathlib.Path(cls.folder.name)
+        cls.base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.formats = [line.split()[0] for line in throng("export", "--list").stdout.splitlines()]
         schema = json.loads(throng("schema", "job").stdout)["properties"]["outputs"]["properties"]
         job = {
@@ -51,20 +46,13 @@ class Export(unittest.TestCase):
                 "classes": {"by": "sex", "names": ["female=woman"]},
             },
         }
-        file = cls.base / "job.json"
-        file.write_text(json.dumps(job))
-        done = throng("run", file, "-o", cls.base / "out")
-        assert done.returncode == 0, done.stderr
+        file = write_json(cls.base / "job.json", job)
+        throng("run", file, "-o", cls.base / "out")
         cls.dataset = cls.base / "out/dataset"
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def export(self, name, *options):
         out = self.base / name
         done = throng("export", self.dataset, "-o", out, "--formats", ",".join(self.formats), *options)
-        self.assertEqual(done.returncode, 0, done.stderr)
         return out, done.stderr
 
     def test_a_full_disk_is_named(self):
@@ -111,8 +99,7 @@ class Export(unittest.TestCase):
             (["-o", "none", "--formats", "mot", "--split", "val=run007"], "one of: run000, run001, run002"),
             (["-o", self.dataset, "--formats", "mot"], "exists"),
         ):
-            done = throng("export", self.dataset, *options)
-            self.assertEqual(done.returncode, 2)
+            done = throng("export", self.dataset, *options, code=2)
             self.assertIn(expected, done.stderr)
 
 

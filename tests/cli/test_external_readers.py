@@ -8,7 +8,6 @@ import importlib.util
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import tarfile
 import tempfile
@@ -19,7 +18,8 @@ import xml.etree.ElementTree
 import numpy
 from PIL import Image
 
-THRONG = sys.argv.pop(1)
+from program import made, printed, throng
+
 
 JOB = {
     "name": "external readers",
@@ -35,22 +35,9 @@ JOB = {
     ],
     "capture": {"rate_hz": 1, "from_s": 6, "to_s": 9},
     "outputs": {
-        "annotations": [
-            "coco",
-            "keypoints",
-            "skeletons",
-            "amodal",
-            "heads",
-            "difficulty",
-            "density",
-            "depth",
-            "instances",
-            "flow",
-            "fields",
-            "sensors",
-            "semantic",
-            "trajectories",
-        ]
+        "annotations": """
+            coco keypoints skeletons amodal heads difficulty density depth instances flow fields sensors
+            semantic trajectories""".split()
     },
 }
 
@@ -62,12 +49,6 @@ def needs(module):
     if importlib.util.find_spec(module):
         return lambda test: test
     return (lambda test: missing) if os.environ.get("CI") else unittest.skip(f"{module} is not installed")
-
-
-def throng(*arguments):
-    done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
 
 
 def mask_of(segmentation):
@@ -121,20 +102,14 @@ def install_stand_in_for_pycocotools():
 class ExternalReaders(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        base = pathlib.Path(cls.folder.name)
-        (base / "job.json").write_text(json.dumps(JOB))
-        throng("run", base / "job.json", "-o", base / "job")
+        base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        made(base, JOB)
         cls.dataset = base / "job/dataset"
-        formats = [line.split()[0] for line in throng("export", "--list").splitlines()]
+        formats = [line.split()[0] for line in printed("export", "--list").splitlines()]
         cls.out = base / "out"
         throng("export", cls.dataset, "-o", cls.out, "--formats", ",".join(formats), "--split", "val=run001")
         cls.coco = json.loads((cls.dataset / "annotations/instances.json").read_text())
         cls.images = {image["id"]: image for image in cls.coco["images"]}
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     @staticmethod
     def stem(image):
@@ -263,7 +238,7 @@ class ExternalReaders(unittest.TestCase):
             numpy.testing.assert_allclose(row[2:4], expected[int(row[0]), int(row[1])], atol=6e-5)
         rows = numpy.loadtxt(self.out / "eth-ucy/train/run000.txt")
         numpy.testing.assert_array_equal(rows, text[:, [1, 0, 2, 3]])
-        done = throng("metrics", "--trajectory", self.out / "jupedsim/train/run000.txt", "--scenario", JOB["scenario"])
+        done = printed("metrics", "--trajectory", self.out / "jupedsim/train/run000.txt", "--scenario", JOB["scenario"])
         self.assertEqual(json.loads(done)["people"], len(tracks))
 
     def head_people(self, image):
@@ -451,7 +426,7 @@ class ExternalReaders(unittest.TestCase):
         self.assertGreater(people, 100)
 
     def test_validation_finds_no_faults(self):
-        self.assertIn("no faults", throng("validate", self.dataset))
+        self.assertIn("no faults", printed("validate", self.dataset))
 
 
 if __name__ == "__main__":

@@ -4,15 +4,12 @@ what it cannot do.
 
 usage: test_first_program.py THRONG FIRST
 """
-import json
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-FIRST = sys.argv.pop(2)
-THRONG = sys.argv.pop(1)
+from program import THRONG, FolderTest, run, write_json
+
+FIRST = sys.argv.pop(1)
 JOB = {
     "scenario": "bridge/everyday",
     "quality": "draft",
@@ -23,7 +20,7 @@ JOB = {
 
 def commands(program):
     """The commands that the help lists."""
-    text = subprocess.run([program, "--help"], check=True, capture_output=True, text=True).stdout
+    text = run(program, "--help").stdout
     return {
         line.split()[0]
         for line in text.split("Subcommands:")[1].splitlines()
@@ -31,21 +28,17 @@ def commands(program):
     }
 
 
-class FirstProgram(unittest.TestCase):
+class FirstProgram(FolderTest):
     def test_it_makes_the_same_dataset(self):
-        with tempfile.TemporaryDirectory() as folder:
-            folder = pathlib.Path(folder)
-            (folder / "job.json").write_text(json.dumps(JOB))
-            contents = []
-            for name, program in (("first", FIRST), ("whole", THRONG)):
-                subprocess.run(
-                    [program, "run", folder / "job.json", "-o", folder / name], check=True, capture_output=True
-                )
-                dataset = folder / name / "dataset"
-                files = [path for path in sorted(dataset.rglob("*")) if path.is_file()]
-                contents.append({str(path.relative_to(dataset)): path.read_bytes() for path in files})
-            self.assertGreater(len(contents[0]), 5)
-            self.assertEqual(contents[0], contents[1])
+        job = write_json(self.folder / "job.json", JOB)
+        contents = []
+        for name, program in (("first", FIRST), ("whole", THRONG)):
+            run(program, "run", job, "-o", self.folder / name)
+            dataset = self.folder / name / "dataset"
+            files = [path for path in sorted(dataset.rglob("*")) if path.is_file()]
+            contents.append({str(path.relative_to(dataset)): path.read_bytes() for path in files})
+        self.assertGreater(len(contents[0]), 5)
+        self.assertEqual(contents[0], contents[1])
 
     def test_it_lacks_only_what_the_first_image_does_not_need(self):
         missing = commands(THRONG) - commands(FIRST)
@@ -53,13 +46,11 @@ class FirstProgram(unittest.TestCase):
         self.assertEqual(commands(FIRST) - commands(THRONG), set())
 
     def test_work_that_it_lacks_is_named(self):
-        with tempfile.TemporaryDirectory() as folder:
-            request = {"task": "calibration", "request": {}, "files": folder}
-            (pathlib.Path(folder) / "request.json").write_text(json.dumps(request))
-            done = subprocess.run([FIRST, "confined", folder], capture_output=True, check=False, text=True)
-            self.assertEqual(done.returncode, 3)
-            self.assertIn("does not have the work", done.stderr)
-            self.assertIn("scripts/setup.sh", done.stderr)
+        request = {"task": "calibration", "request": {}, "files": str(self.folder)}
+        write_json(self.folder / "request.json", request)
+        done = run(FIRST, "confined", self.folder, code=3)
+        self.assertIn("does not have the work", done.stderr)
+        self.assertIn("scripts/setup.sh", done.stderr)
 
 
 if __name__ == "__main__":

@@ -6,12 +6,13 @@ import pathlib
 import re
 import signal
 import socket
-import subprocess
 import sys
 import tempfile
 import time
 import unittest
 import urllib.error
+
+from program import ROOT, THRONG, printed, run
 
 for folder in ("bench", "python"):
     sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / folder))
@@ -19,8 +20,6 @@ import hostile  # noqa: E402
 import throng  # noqa: E402
 from open_requests import Http1, Http2  # noqa: E402
 
-THRONG = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 # For requests that stay open as long as the test wants.
 PATIENT = (
     ("client_body_timeout 10s", "client_body_timeout 1h"),
@@ -51,8 +50,7 @@ class Front(unittest.TestCase):
         return hostile.Front(nginx.port, self.throng.key, nginx.context)
 
     def key(self, name, scope="submit"):
-        command = [THRONG, "keys", "create", name, "--data", f"{self.folder}/data", "--scope", scope]
-        return subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()[-1]
+        return printed("keys", "create", name, "--data", f"{self.folder}/data", "--scope", scope).split()[-1]
 
     def client(self, protocol, front, address="127.0.0.1", **more):
         client = protocol(front, address, **more)
@@ -442,17 +440,17 @@ class Front(unittest.TestCase):
         assert_secure("GET", "/v1/version", 503, {})
         command = ["curl", "-sS", "-o", "/dev/null", "-D", "-"]
         secure = [*command, "--http2", "--cacert", f"{self.folder}/tls/tls.crt", f"https://localhost:{front.port}/x"]
-        answer = subprocess.run(secure, check=True, capture_output=True, text=True).stdout.lower()
+        answer = run(*secure).stdout.lower()
         self.assertTrue(answer.startswith("http/2 503"), answer)
         self.assertEqual(answer.count("strict-transport-security: max-age=31536000\n"), 1, answer)
         plain = [*command, f"http://127.0.0.1:{self.plain_port}/x"]
-        answer = subprocess.run(plain, check=True, capture_output=True, text=True).stdout.lower()
+        answer = run(*plain).stdout.lower()
         self.assertIn(" 308 ", answer.splitlines()[0])
         self.assertNotIn("strict-transport-security", answer)
         self.assertIn("location: https://127.0.0.1/x", answer)
         for host in ["evil.example", "localhost.evil.example", ""]:
             strange = [*plain, "-H", f"Host: {host}" if host else "Host;"]
-            answer = subprocess.run(strange, check=True, capture_output=True, text=True).stdout.lower()
+            answer = run(*strange).stdout.lower()
             self.assertNotIn("location", answer, host)
 
 

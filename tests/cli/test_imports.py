@@ -1,33 +1,16 @@
 """The commands of docs/imports.md and a job of docs/recorded.md: imports, their check, and a run of one of them and of recorded people."""
 import json
 import math
-import os
 import re
 import shlex
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-THRONG = sys.argv[1]
-ROOT = Path(__file__).resolve().parents[2]
+from program import ROOT, FolderTest, throng
 
 
-def throng(*words, cwd, scenarios=None, code=0):
-    env = dict(os.environ)
-    if scenarios:
-        env["THRONG_SCENARIOS"] = str(scenarios)
-    done = subprocess.run([THRONG, *map(str, words)], cwd=cwd, env=env, capture_output=True, text=True)
-    assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
-    return done
-
-
-class Imports(unittest.TestCase):
+class Imports(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         (self.folder / "tests").symlink_to(ROOT / "tests")
 
     def commands(self):
@@ -42,7 +25,7 @@ class Imports(unittest.TestCase):
                 short = json.loads(job.read_text())
                 short["capture"] = {"from_s": 1, "to_s": 3}
                 job.write_text(json.dumps(short))
-                throng("simulate", job, "-o", "trace.h5", cwd=self.folder, scenarios=scenarios)
+                throng("simulate", job, "-o", "trace.h5", cwd=self.folder, variables={"THRONG_SCENARIOS": scenarios})
                 continue
             throng(*words[1:], cwd=self.folder)
         skipped = (self.folder / "mine" / "yard.skipped.txt").read_text()
@@ -68,28 +51,13 @@ class Imports(unittest.TestCase):
             },
         }
         (self.folder / "job.json").write_text(json.dumps(job))
-        mine = self.folder / "mine"
-        throng("simulate", "job.json", "-o", "trace.h5", cwd=self.folder, scenarios=mine)
-        run = json.loads(throng("metrics", "trace.h5", cwd=self.folder, scenarios=mine).stdout)
+        mine = {"THRONG_SCENARIOS": self.folder / "mine"}
+        throng("simulate", "job.json", "-o", "trace.h5", cwd=self.folder, variables=mine)
+        run = json.loads(throng("metrics", "trace.h5", cwd=self.folder, variables=mine).stdout)
         own = json.loads(
             throng(
-                "metrics",
-                "--trajectory",
-                "walk.csv",
-                "--scenario",
-                "mine/yard.json",
-                "--frame-rate",
-                "16",
-                "--unit-m",
-                "0.01",
-                "--person-column",
-                "who",
-                "--frame-column",
-                "t",
-                "--x-column",
-                "east",
-                "--y-column",
-                "north",
+                *"metrics --trajectory walk.csv --scenario mine/yard.json --frame-rate 16 --unit-m 0.01 --person-column who".split(),
+                *"--frame-column t --x-column east --y-column north".split(),
                 cwd=self.folder,
             ).stdout
         )
@@ -99,23 +67,11 @@ class Imports(unittest.TestCase):
 
     def test_wrong_input_is_refused(self):
         (self.folder / "w.txt").write_text("no world")
-        throng("scenario", "import", "w.txt", "-o", "mine", cwd=self.folder, code=2)
-        throng("scenario", "import", "none.osm", "-o", "mine", cwd=self.folder, code=2)
-        throng(
-            "scenario",
-            "import",
-            "tests/places/imports/data/yard.sdf",
-            "-o",
-            "mine",
-            "--exit",
-            "1,2,3",
-            cwd=self.folder,
-            code=2,
-        )
         world = "tests/places/imports/data/yard.sdf"
-        throng("scenario", "import", world, "-o", "mine", "--models", "no_models", cwd=self.folder, code=2)
+        for words in (["w.txt"], ["none.osm"], [world, "--exit", "1,2,3"], [world, "--models", "no_models"]):
+            throng("scenario", "import", *words, "-o", "mine", cwd=self.folder, code=2)
         self.assertFalse((self.folder / "mine").exists())
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main()

@@ -8,7 +8,6 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
@@ -16,9 +15,10 @@ import unittest
 import numpy
 
 from mcap import matrix_of, read_recording
+import program
+from program import THRONG, FolderTest
 from service import start_service, wait_until
 
-THRONG = sys.argv.pop(1)
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 
 import throng  # noqa: E402
@@ -73,17 +73,15 @@ for name in ("d1", "d2"):
     }
 
 
-class WithServer(unittest.TestCase):
+class WithServer(FolderTest):
     live_timeout_s = 600  # no flight ends by itself while a busy machine gets round to looking at it
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.base = pathlib.Path(folder.name)
-        self.log = open(self.base / "log", "w")
+        super().setUp()
+        self.log = open(self.folder / "log", "w")
         self.addCleanup(self.log.close)
         options = ["--live-timeout", self.live_timeout_s]
-        self.server, port = start_service(THRONG, self.base / "data", *options, stderr=self.log)
+        self.server, port = start_service(THRONG, self.folder / "data", *options, stderr=self.log)
         self.addCleanup(self.stop)
         self.url = f"http://127.0.0.1:{port}"
         self.client = throng.Client(self.url, timeout_s=300, patience_s=2)
@@ -91,7 +89,7 @@ class WithServer(unittest.TestCase):
     def stop(self):
         self.server.terminate()
         self.server.wait(300)
-        self.assertNotIn("Sanitizer", (self.base / "log").read_text())
+        self.assertNotIn("Sanitizer", (self.folder / "log").read_text())
 
     def live(self, client=None):
         flight = (client or self.client).live(JOB)
@@ -183,7 +181,7 @@ class Live(WithServer):
         self.assertGreaterEqual(result["duration_s"], 8)
         replayed = self.client.submit(result["job"])
         self.assertEqual(self.client.watch(replayed["id"], progress=False)["state"], "succeeded")
-        trace = self.client.trace(replayed["id"], 0, self.base / "trace.h5")
+        trace = self.client.trace(replayed["id"], 0, self.folder / "trace.h5")
         self.assertEqual(hashlib.sha256(trace.read_bytes()).hexdigest(), result["trace_sha256"])
 
         # The logs as files beside a job do the same.
@@ -191,10 +189,10 @@ class Live(WithServer):
         for drone, log in zip(job["drones"], result["drones"]):
             del drone["guidance"]["setpoints"]
             drone["guidance"]["log"] = log["id"] + ".csv"
-            (self.base / (log["id"] + ".csv")).write_text(log["csv"])
-        (self.base / "job.json").write_text(json.dumps(job))
-        subprocess.run([THRONG, "simulate", self.base / "job.json", "-o", self.base / "again.h5"], check=True)
-        self.assertEqual(hashlib.sha256((self.base / "again.h5").read_bytes()).hexdigest(), result["trace_sha256"])
+            (self.folder / (log["id"] + ".csv")).write_text(log["csv"])
+        (self.folder / "job.json").write_text(json.dumps(job))
+        program.throng("simulate", self.folder / "job.json", "-o", self.folder / "again.h5")
+        self.assertEqual(hashlib.sha256((self.folder / "again.h5").read_bytes()).hexdigest(), result["trace_sha256"])
         flight.remove()
         with self.assertRaises(throng.NotFoundError):
             flight.state()
@@ -239,7 +237,7 @@ class Live(WithServer):
     def test_a_recording_holds_the_flight(self):
         flight = self.client.live(JOB, record=True)
         self.addCleanup(flight.remove)
-        file = self.base / "flight.mcap"
+        file = self.folder / "flight.mcap"
         received = self.fly(flight, 5, drones={0, 1})
         with self.assertRaisesRegex(throng.ConflictError, "goes on"):
             flight.recording(file)
@@ -254,10 +252,9 @@ class Live(WithServer):
         self.assertEqual({topic: messages[0].type for topic, messages in topics.items()}, RECORDED)
 
         job = {**result["job"], "outputs": {"annotations": ["coco", "sensors"]}}
-        dataset = self.base / "job/dataset"
-        (self.base / "job.json").write_text(json.dumps(job))
-        subprocess.run([THRONG, "run", self.base / "job.json", "-o", self.base / "job"], check=True)
-        trace = throng.Trace(self.base / "job/work/run000/trace.h5")
+        dataset = self.folder / "job/dataset"
+        program.made(self.folder, job)
+        trace = throng.Trace(self.folder / "job/work/run000/trace.h5")
         for drone in ("d1", "d2"):
             self.check_motion(drone, topics, trace.drone(drone))
             self.check_readings(drone, topics, dataset / f"sensors/run000/{drone}.csv")
@@ -361,11 +358,11 @@ class Live(WithServer):
     def test_a_flight_that_was_not_recorded_says_so(self):
         flight = self.live()
         with self.assertRaisesRegex(throng.NotFoundError, "without"):
-            flight.recording(self.base / "flight.mcap")
+            flight.recording(self.folder / "flight.mcap")
         self.fly(flight, 0.5)
         self.assertIsNone(flight.stop()["recording"])
         with self.assertRaisesRegex(throng.NotFoundError, "without"):
-            flight.recording(self.base / "flight.mcap")
+            flight.recording(self.folder / "flight.mcap")
 
     def test_a_recording_of_a_killed_flight_holds_whole_chunks(self):
         flight = self.client.live(JOB, record=True)
@@ -373,7 +370,7 @@ class Live(WithServer):
         self.fly(flight, 3)
         os.kill(self.process_of_flight(), 9)
         wait_until(lambda: flight.state()["state"] == "failed")
-        file = flight.recording(self.base / "flight.mcap")
+        file = flight.recording(self.folder / "flight.mcap")
         records = []
         with open(file, "rb") as recording:
             self.assertEqual(recording.read(8), b"\x89MCAP0\r\n")
@@ -477,12 +474,7 @@ class Live(WithServer):
 
     def test_other_keys_and_limits(self):
         def key(name, scope):
-            return subprocess.run(
-                [THRONG, "keys", "create", name, "--data", self.base / "data", "--scope", scope],
-                check=True,
-                capture_output=True,
-                text=True,
-            ).stdout.strip()
+            return program.printed("keys", "create", name, "--data", self.folder / "data", "--scope", scope).strip()
 
         alice = throng.Client(self.url, key("alice", "submit"), patience_s=0)
         bob = throng.Client(self.url, key("bob", "submit"), patience_s=0)
@@ -537,7 +529,7 @@ class Unseen(WithServer):
         self.assertGreater(time.monotonic() - left, 10)
         with self.assertRaises(throng.NotFoundError):
             flight.state()
-        wait_until(lambda: not list((self.base / "data" / "live").iterdir()))  # no folder is left
+        wait_until(lambda: not list((self.folder / "data" / "live").iterdir()))  # no folder is left
 
 
 if __name__ == "__main__":

@@ -5,21 +5,17 @@ import http.client
 import json
 import math
 import os
-import pathlib
 import queue
 import re
 import signal
 import socket
 import subprocess
-import sys
-import tempfile
 import threading
 import unittest
 
 from mcap import read_recording
+from program import ROOT, THRONG, FolderTest, throng
 
-THRONG = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 PATIENCE_S = 300  # of a busy machine
 
 JOB = {
@@ -142,18 +138,16 @@ def rotated(turn, vector):
     return (a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx)
 
 
-class Outside(unittest.TestCase):
+class Outside(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.base = pathlib.Path(folder.name)
-        (self.base / "job.json").write_text(json.dumps(JOB))
-        self.temporary = self.base / "temporary"
+        super().setUp()
+        (self.folder / "job.json").write_text(json.dumps(JOB))
+        self.temporary = self.folder / "temporary"
         self.temporary.mkdir()
 
     def begin(self, *options, start=("--paused",)):
         """Starts a flight, which waits by default; returns its port."""
-        command = [THRONG, "live", self.base / "job.json", "--port", "0", *start, *options]
+        command = [THRONG, "live", self.folder / "job.json", "--port", "0", *start, *options]
         self.flight = subprocess.Popen(
             list(map(str, command)),
             stdout=subprocess.PIPE,
@@ -222,7 +216,7 @@ class Outside(unittest.TestCase):
         self.assertEqual(self.flight.wait(PATIENCE_S), 0)
 
     def test_commands_are_flown_and_a_job_repeats_them(self):
-        client = self.connect(self.begin("--no-camera", "-o", self.base / "out"))
+        client = self.connect(self.begin("--no-camera", "-o", self.folder / "out"))
         client.do("subscribe", topics=["/d1/odometry", "/d1/command", "/d1/mode", "/d_2/odometry", "/events"])
 
         def place(topics, drone="d1"):
@@ -273,16 +267,14 @@ class Outside(unittest.TestCase):
         self.assertTrue(json.loads(topics["/d1/mode"][-1]["data"])["beacon"])
 
         self.assertTrue(client.call("/throng/stop")["success"])
-        self.assertEqual(self.finish(), [str(self.base / "out/flight000")])
-        kept = self.base / "out/flight000"
+        self.assertEqual(self.finish(), [str(self.folder / "out/flight000")])
+        kept = self.folder / "out/flight000"
         self.assertEqual(
             {file.name for file in kept.iterdir()}, {"trace.h5", "d1.csv", "d-2.csv", "job.json", "flight.json"}
         )
         self.assertEqual(json.loads((kept / "flight.json").read_text())["steps"], 250)
-        subprocess.run(
-            [THRONG, "simulate", kept / "job.json", "-o", self.base / "again.h5"], check=True, capture_output=True
-        )
-        self.assertEqual(self.digest(self.base / "again.h5"), self.digest(kept / "trace.h5"))
+        throng("simulate", kept / "job.json", "-o", self.folder / "again.h5")
+        self.assertEqual(self.digest(self.folder / "again.h5"), self.digest(kept / "trace.h5"))
 
     def test_the_gimbal_turns_and_a_dataset_of_the_flight_shows_it(self):
         job = {
@@ -295,8 +287,8 @@ class Outside(unittest.TestCase):
             "outputs": {"annotations": ["coco"]},
             "quality": "draft",
         }
-        (self.base / "job.json").write_text(json.dumps(job))
-        client = self.connect(self.begin("--no-camera", "-o", self.base / "out"))
+        (self.folder / "job.json").write_text(json.dumps(job))
+        client = self.connect(self.begin("--no-camera", "-o", self.folder / "out"))
         client.do("subscribe", topics=["/tf"])
 
         def camera(messages):
@@ -322,16 +314,11 @@ class Outside(unittest.TestCase):
         client.call("/throng/stop")
         self.finish()
 
-        kept = self.base / "out/flight000"
+        kept = self.folder / "out/flight000"
         self.assertIn("gimbal_pitch_deg", (kept / "d1.csv").read_text().splitlines()[0])
         self.assertNotIn("gimbal_pitch_deg", (kept / "d-2.csv").read_text())
-        subprocess.run(
-            [THRONG, "run", kept / "job.json", "-o", self.base / "data"],
-            check=True,
-            capture_output=True,
-            timeout=PATIENCE_S,
-        )
-        images = json.loads((self.base / "data/dataset/annotations/instances.json").read_text())["images"]
+        throng("run", kept / "job.json", "-o", self.folder / "data")
+        images = json.loads((self.folder / "data/dataset/annotations/instances.json").read_text())["images"]
         shown = {
             round(image["flight"]["true"]["time_s"]): image["flight"]["true"]["gimbal"]
             for image in images
@@ -340,17 +327,16 @@ class Outside(unittest.TestCase):
         # The first step flies without a command; from then on 60 degrees/s from -20, and a set-point 3 ms later.
         self.assertAlmostEqual(shown[1]["pitch_deg"], -20 - 60 * 0.897, delta=0.01)
         self.assertAlmostEqual(shown[2]["pitch_deg"], -80, delta=1e-6)
-        checked = subprocess.run([THRONG, "validate", self.base / "data/dataset"], capture_output=True, text=True)
-        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        throng("validate", self.folder / "data/dataset")
 
     def test_a_client_that_neither_reads_nor_leaves_does_not_keep_the_flight_from_ending(self):
-        client = self.connect(self.begin("--no-camera", "-o", self.base / "out"))
+        client = self.connect(self.begin("--no-camera", "-o", self.folder / "out"))
         client.do("subscribe", topics=["/d1/odometry"])
         client.step(5)
         client.do("rest")
         client.wait("rests")
         self.flight.send_signal(signal.SIGINT)
-        self.assertEqual(self.finish(), [str(self.base / "out/flight000")])
+        self.assertEqual(self.finish(), [str(self.folder / "out/flight000")])
 
     def test_images_of_a_flight_that_rests_repeat_no_transforms(self):
         client = self.connect(self.begin())
@@ -372,7 +358,7 @@ class Outside(unittest.TestCase):
         self.finish()
 
     def test_time_parameters_and_services(self):
-        port = self.begin("--no-camera", "-o", self.base / "out", "--factor", 0)
+        port = self.begin("--no-camera", "-o", self.folder / "out", "--factor", 0)
         client, other = self.connect(port), self.connect(port)
         info = next(event for event in client.seen if event["event"] == "serverInfo")["info"]
         self.assertEqual(
@@ -410,7 +396,7 @@ class Outside(unittest.TestCase):
         self.assertEqual(client.call("/throng/reset")["time_s"], 0)
         client.step(2)
         self.flight.send_signal(signal.SIGINT)
-        folders = [self.base / f"out/flight00{i}" for i in range(3)]
+        folders = [self.folder / f"out/flight00{i}" for i in range(3)]
         self.assertEqual(self.finish(), list(map(str, folders)))
         flown = [json.loads((folder / "flight.json").read_text()) for folder in folders]
         self.assertEqual([flight["seed"] for flight in flown], [5, 9, 9])
@@ -502,7 +488,7 @@ class Outside(unittest.TestCase):
         self.assertAlmostEqual(client.call("/throng/step", steps=1)["time_s"], 50.1)
 
     def test_images_for_those_who_want_them_and_a_recording(self):
-        file = self.base / "flight.mcap"
+        file = self.folder / "flight.mcap"
         port = self.begin("--record", file)
         client = self.connect(port)
         image, lens = "/d_2/camera/image_color/compressed", "/d_2/camera/camera_info"
@@ -518,14 +504,14 @@ class Outside(unittest.TestCase):
         client.do("unsubscribe", topics=[image, lens])
         client.call("/throng/stop")
         client.wait("close")
-        self.assertEqual(self.finish(), [str(file), str(self.base / "flight-2.mcap")])
+        self.assertEqual(self.finish(), [str(file), str(self.folder / "flight-2.mcap")])
         advertised = next(event for event in client.seen if event["event"] == "advertise")["topics"]
         _, topics = read_recording(file)
         self.assertEqual({topic: advertised.get(topic) for topic in topics}, {t: m[0].type for t, m in topics.items()})
         self.assertIn(image, topics)
         self.assertIn("/d_2/command", topics)
         self.assertEqual(max(message.time_ns for message in topics["/clock"]), 300_000_000)
-        _, topics = read_recording(self.base / "flight-2.mcap")
+        _, topics = read_recording(self.folder / "flight-2.mcap")
         self.assertEqual(max(message.time_ns for message in topics["/clock"]), 200_000_000)
 
     def test_others_are_refused(self):
@@ -553,9 +539,7 @@ class Outside(unittest.TestCase):
         self.assertEqual(answer(**{**upgrade, "Sec-WebSocket-Protocol": "chat"}).status, 400)
 
         def fail(*options, job="job.json"):
-            done = subprocess.run(
-                [THRONG, "live", self.base / job, *options], capture_output=True, text=True, timeout=PATIENCE_S
-            )
+            done = throng("live", self.folder / job, *options, code=None)
             return done.returncode, done.stderr
 
         code, message = fail("--port", str(port), "--no-camera")
@@ -566,7 +550,7 @@ class Outside(unittest.TestCase):
         self.assertIn("--host: found nowhere", message)
         code, message = fail("--record", "flight.bag")
         self.assertEqual((code, ".mcap" in message), (2, True))
-        (self.base / "none.json").write_text(json.dumps({**JOB, "drones": []}))
+        (self.folder / "none.json").write_text(json.dumps({**JOB, "drones": []}))
         code, message = fail("--port", "0", job="none.json")
         self.assertEqual(code, 2)
         self.assertIn("/drones: found no drone", message)

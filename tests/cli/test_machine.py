@@ -7,12 +7,12 @@ import os
 import pathlib
 import resource
 import subprocess
-import tempfile
 import time
 import unittest
 import urllib.error
 
 import test_crash as crash
+from program import FolderTest
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -21,12 +21,10 @@ def open_files(pid):
     return len(os.listdir(f"/proc/{pid}/fd"))
 
 
-class Machine(unittest.TestCase):
+class Machine(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.base = pathlib.Path(folder.name)
-        self.server = crash.Server(self.base)
+        super().setUp()
+        self.server = crash.Server(self.folder)
         self.addCleanup(lambda: self.server.stop())
 
     def status(self, method, path, body=None, timeout_s=300):
@@ -95,9 +93,9 @@ class Machine(unittest.TestCase):
                 pathlib.Path(f"/proc/{self.server.process.pid}/environ").read_bytes()
 
     def test_a_disk_that_becomes_read_only_is_waited_for(self):
-        library = self.base / "read_only_disk.so"
+        library = self.folder / "read_only_disk.so"
         subprocess.run(["cc", "-shared", "-fPIC", "-o", library, HERE / "read_only_disk.c", "-ldl"], check=True)
-        flag = self.base / "flag"
+        flag = self.folder / "flag"
         preloaded = {"LD_PRELOAD": str(library), "READ_ONLY_ROOT": str(self.server.data), "READ_ONLY_FLAG": str(flag)}
         os.environ.update(preloaded)
         self.server.start()

@@ -1,15 +1,13 @@
 """throng merge: datasets become one that is sound, with the images, people and splits of all of them."""
-import copy
 import csv
 import hashlib
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-THRONG = sys.argv.pop(1)
+from program import made, throng
+
 JOB = {
     "name": "part",
     "scenario": "city_square/nearest_exit",
@@ -32,41 +30,20 @@ JOB = {
 RUN_TRACKS = 1_000_000
 
 
-def throng(*arguments):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-
-def changed(**fields):
-    job = copy.deepcopy(JOB)
-    job.update(fields)
-    return job
-
-
 class Merge(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        one = cls.make("one", JOB)
-        two = cls.make("two", changed(seed=7, name="other", runs=1, scenario="city_square/second_nearest"))
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        one = made(cls.folder, JOB, "one") / "dataset"
+        job = {**JOB, "seed": 7, "name": "other", "runs": 1, "scenario": "city_square/second_nearest"}
+        two = made(cls.folder, job, "two") / "dataset"
         cls.parts = [one, two]
         cls.whole = cls.folder / "whole"
         done = throng("merge", one, two, "-o", cls.whole)
-        assert done.returncode == 0, done.stderr
         cls.printed = done.stdout
 
-    @classmethod
-    def make(cls, name, job):
-        file = cls.folder / f"{name}.json"
-        file.write_text(json.dumps(job))
-        done = throng("run", file, "-o", cls.folder / name)
-        assert done.returncode == 0, done.stderr
-        return cls.folder / name / "dataset"
-
     def test_the_result_is_sound(self):
-        done = throng("validate", self.whole)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        throng("validate", self.whole)
         self.assertIn("12 images of 3 runs with ", self.printed)
 
     def test_all_images_and_people_are_there_once(self):
@@ -130,31 +107,27 @@ class Merge(unittest.TestCase):
         runs = json.loads((self.whole / "metrics.json").read_text())["runs"]
         self.assertEqual([run["run"] for run in runs], ["run000", "run001", "run002"])
         self.assertEqual(len({run["seed"] for run in runs}), 3)
-        done = throng("export", self.whole, "-o", self.folder / "mot", "--formats", "mot")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        throng("export", self.whole, "-o", self.folder / "mot", "--formats", "mot")
 
     def test_a_merged_dataset_can_be_merged(self):
         again = self.folder / "again"
-        done = throng("merge", self.whole, self.parts[0], "-o", again)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        done = throng("validate", again)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        throng("merge", self.whole, self.parts[0], "-o", again)
+        throng("validate", again)
 
     def refused(self, expected, *arguments):
-        done = throng("merge", *arguments, "-o", self.folder / "refused")
-        self.assertEqual(done.returncode, 2, done.stderr)
+        done = throng("merge", *arguments, "-o", self.folder / "refused", code=2)
         self.assertIn(expected, done.stderr)
         self.assertFalse((self.folder / "refused").exists())
 
     def test_datasets_that_do_not_fit_are_refused(self):
         one = self.parts[0]
-        other = self.make("sizes", changed(capture={"rate_hz": 2, "from_s": 8, "to_s": 9}, runs=1))
+        job = {**JOB, "capture": {"rate_hz": 2, "from_s": 8, "to_s": 9}, "runs": 1}
+        other = made(self.folder, job, "sizes") / "dataset"
         self.refused('manifest.json: /job/capture: found {"from_s": 8', one, other)
         self.refused("found 1 dataset, expected two or more", one)
         self.refused("nowhere: found no such folder, expected the folder of a finished dataset", one, "nowhere")
         self.refused(f"expected a finished dataset, as {self.folder}/one/dataset", self.folder / "one", one)
-        done = throng("merge", *self.parts, "-o", self.whole)
-        self.assertEqual(done.returncode, 2)
+        done = throng("merge", *self.parts, "-o", self.whole, code=2)
         self.assertIn("found something that is there already, expected a new folder", done.stderr)
         (self.folder / "two/dataset/images/run000/d1/000000.jpg").rename(self.folder / "gone.jpg")
         self.addCleanup((self.folder / "gone.jpg").rename, self.folder / "two/dataset/images/run000/d1/000000.jpg")

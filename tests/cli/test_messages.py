@@ -3,57 +3,33 @@ import contextlib
 import fcntl
 import json
 import os
-import pathlib
 import pty
 import re
 import shutil
 import struct
 import subprocess
-import sys
-import tempfile
 import termios
 import unittest
 
 from free_ports import free_port
-from service import start_service
+from program import ROOT, THRONG, FolderTest, printed, run, throng, write_json
 
-THRONG = sys.argv.pop(1)
-SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
-
-
-def throng(*arguments, **environment):
-    return subprocess.run(
-        [THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300, env={**os.environ, **environment}
-    )
+SCENARIOS = ROOT / "scenarios"
 
 
-class Messages(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Messages(FolderTest):
     def refused(self, expected, *arguments, code=2, **environment):
-        done = throng(*arguments, **environment)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        done = throng(*arguments, code=code, variables=environment)
         self.assertIn(expected, done.stderr)
 
     def job(self, **fields):
-        file = self.folder / "my.job.json"
-        file.write_text(json.dumps({"scenario": "city_square/nearest_exit", **fields}))
+        file = write_json(self.folder / "my.job.json", {"scenario": "city_square/nearest_exit", **fields})
         return file
 
     def unwritable(self, expected, *arguments):
         """Also root has no other rights than those of the folder's mode here."""
         drop = ["setpriv", "--bounding-set", "-dac_override,-dac_read_search"] if os.geteuid() == 0 else []
-        done = subprocess.run(
-            [*drop, os.path.abspath(THRONG), *map(str, arguments)],
-            capture_output=True,
-            text=True,
-            timeout=300,
-            cwd=self.folder,
-        )
-        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        done = run(*drop, THRONG, *arguments, cwd=self.folder, code=3)
         self.assertIn(f"throng: cannot write {expected}", done.stderr)
 
     def test_folders_that_cannot_be_written_say_why(self):
@@ -91,27 +67,21 @@ class Messages(unittest.TestCase):
 
     def test_help_is_a_command(self):
         done = throng("help")
-        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("validate-crowd", done.stdout)
         self.assertIn("Usage: throng ", done.stdout)
-        self.assertIn("Usage: throng scenario check [OPTIONS]", throng("help", "scenario", "check").stdout)
-        self.assertIn("--output", throng("help", "run").stdout)
-        self.assertIn("FILE.json, a folder or an id", throng("help", "scenario", "check").stdout)
+        self.assertIn("Usage: throng scenario check [OPTIONS]", printed("help", "scenario", "check"))
+        self.assertIn("--output", printed("help", "run"))
+        self.assertIn("FILE.json, a folder or an id", printed("help", "scenario", "check"))
 
     def test_help_is_plain_text(self):
         for command in ([], ["metrics"], ["calibrate", "pose"]):
-            text = throng(*command, "--help").stdout
+            text = printed(*command, "--help")
             self.assertTrue(text.isascii() and re.fullmatch(r"[\n -~]*", text), command)
-        self.assertIn("{any,text,sqlite,scb,csv,hdf5,fcd,json}", throng("metrics", "--help").stdout)
+        self.assertIn("{any,text,sqlite,scb,csv,hdf5,fcd,json}", printed("metrics", "--help"))
 
     def test_an_unknown_field_is_named_with_the_nearest_one(self):
-        self.refused(
-            '/drone: unknown field "drone"; did you mean "drones"?',
-            "run",
-            self.job(drone=[]),
-            "-o",
-            self.folder / "out",
-        )
+        job = self.job(drone=[])
+        self.refused('/drone: unknown field "drone"; did you mean "drones"?', "run", job, "-o", self.folder / "out")
 
     def test_a_missing_character_library_is_noticed_before_anything_is_written(self):
         job, out = self.job(capture={"to_s": 1}), self.folder / "out"
@@ -121,8 +91,7 @@ class Messages(unittest.TestCase):
         )
         self.assertFalse(out.exists())
         # No camera, no need.
-        done = throng("run", self.job(capture={"to_s": 1}, drones=[]), "-o", out, **missing)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        throng("run", self.job(capture={"to_s": 1}, drones=[]), "-o", out, variables=missing)
 
     def test_a_file_is_no_data_folder_and_a_folder_is_no_image(self):
         file = self.folder / "data"
@@ -135,8 +104,7 @@ class Messages(unittest.TestCase):
         self.refused(expected, "calibrate", "intrinsics", self.folder, *boards)
 
     def test_one_mistake_gives_one_message(self):
-        done = throng("check", self.job(scenario=[{"weight": 2}]))
-        self.assertEqual(done.returncode, 2)
+        done = throng("check", self.job(scenario=[{"weight": 2}]), code=2)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
     def test_a_missing_field_is_named(self):
@@ -147,15 +115,10 @@ class Messages(unittest.TestCase):
         )
 
     def test_an_unknown_scenario_is_named_with_the_nearest_one(self):
-        self.refused(
-            'unknown scenario "city_square/nearest_exti"; did you mean "city_square/nearest_exit"?',
-            "scenario",
-            "plan",
-            "city_square/nearest_exti",
-            "-o",
-            self.folder / "plan.svg",
-        )
-        self.refused("THRONG_SCENARIOS", "scenario", "plan", "atlantis", "-o", self.folder / "plan.svg")
+        expected = 'unknown scenario "city_square/nearest_exti"; did you mean "city_square/nearest_exit"?'
+        plan = ("-o", self.folder / "plan.svg")
+        self.refused(expected, "scenario", "plan", "city_square/nearest_exti", *plan)
+        self.refused("THRONG_SCENARIOS", "scenario", "plan", "atlantis", *plan)
 
     def test_a_misspelled_scenario_of_a_command_is_answered_with_the_nearest_one(self):
         self.refused(
@@ -248,8 +211,8 @@ class Messages(unittest.TestCase):
         self.refused("throng run: missing --output (`throng run --help`)", "run", job)
         self.refused("throng serve: --port: found 99999, expected 0 to 65535", "serve", "--port", "99999")
         self.refused('one more argument, "check"', "scenarios", "check")
-        alone = subprocess.run([THRONG], capture_output=True, text=True, timeout=100)
-        self.assertEqual((alone.returncode, alone.stderr), (0, ""))
+        alone = throng()
+        self.assertEqual(alone.stderr, "")
         self.assertIn("Subcommands:", alone.stdout)
         self.assertNotIn("confined", alone.stdout)
         self.refused("throng keys: found no command, expected one of: ", "keys")
@@ -266,15 +229,13 @@ class Messages(unittest.TestCase):
         study = self.folder / "study.json"
         case = {"id": "a", "scenario": "city_square/nearest_exit", "duration_s": "200"}
         study.write_text(json.dumps({"name": "x", "runs": 2, "cases": [case]}))
-        done = throng("study", study, "-o", self.folder / "out")
-        self.assertEqual(done.returncode, 2)
+        done = throng("study", study, "-o", self.folder / "out", code=2)
         self.assertEqual(done.stderr.count("expected"), 1, done.stderr)
         self.refused("--runs: found 0, expected a number above 0", "study", study, "-o", "x", "--runs", "0")
 
     def test_a_scenario_that_is_an_object_of_something_else_is_said_once(self):
         job = self.job(scenario={"kind": "plaza"})
-        done = throng("check", job)
-        self.assertEqual((done.returncode, done.stderr.count("expected")), (2, 1), done.stderr)
+        self.assertEqual(throng("check", job, code=2).stderr.count("expected"), 1)
 
     def test_a_scenario_in_place_of_a_job_is_told_how_a_job_names_it(self):
         for name in ("city_square/everyday", "scenarios/city_square/everyday"):
@@ -286,18 +247,18 @@ class Messages(unittest.TestCase):
 
     def test_what_may_be_no_mistake_is_asked(self):
         radians = {"id": "d", "start": [0, 0, 20], "camera": {"pitch_deg": -1.57}}
-        said = throng("check", self.job(drones=[radians])).stdout
+        said = printed("check", self.job(drones=[radians]))
         self.assertIn("/drones/0/camera/pitch_deg: found -1.57 degrees, expected -90 if it is meant in radians", said)
         for pitch, in_degrees in ((-0.7, -40), (-1.2, -69)):
             asked = {**radians, "camera": {"pitch_deg": pitch}}
-            said = throng("check", self.job(drones=[asked])).stdout
+            said = printed("check", self.job(drones=[asked]))
             self.assertIn(f"found {pitch} degrees, expected {in_degrees} if it is meant in radians", said)
         for pitch in (-1.75, -30, -2, -1, -0.1, 0.001, 0.5):
             fine = {**radians, "camera": {"pitch_deg": pitch}}
-            self.assertNotIn("radians", throng("check", self.job(drones=[fine])).stdout, pitch)
+            self.assertNotIn("radians", printed("check", self.job(drones=[fine])), pitch)
         self.refused("1 to ", "check", self.job(crowd={"agents": 1_000_000}))
         capture = {"to_s": 1, "rate_hz": 1}
-        said = throng("check", self.job(scenario="concert/everyday", crowd={"agents": 2000}, capture=capture)).stdout
+        said = printed("check", self.job(scenario="concert/everyday", crowd={"agents": 2000}, capture=capture))
         self.assertRegex(said, r"people +about 1\d+ of 2000, as the others come after the end")
 
     def test_inputs_are_not_written_over(self):
@@ -379,16 +340,15 @@ class Messages(unittest.TestCase):
         shutil.copytree(SCENARIOS / "bridge", folder / "bridge")
         (folder / "job.json").write_text('{"scenario": "bridge/everyday"}')
         (folder / "bridge/job.json").write_text('{"scenario": "bridge/everyday"}')
-        done = throng("scenarios", THRONG_SCENARIOS=str(folder))
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = throng("scenarios", variables={"THRONG_SCENARIOS": folder})
+        self.assertEqual(done.stderr, "")
         self.assertEqual(
             [line.split()[0] for line in done.stdout.splitlines()], ["bridge/emergency", "bridge/everyday"]
         )
-        self.assertEqual(throng("scenario", "check", folder).returncode, 0)
+        throng("scenario", "check", folder)
         # One that is broken hides no other.
         (folder / "broken.json").write_text('{"ground": 5}')
-        done = throng("scenarios", THRONG_SCENARIOS=str(folder))
-        self.assertEqual(done.returncode, 2)
+        done = throng("scenarios", variables={"THRONG_SCENARIOS": folder}, code=2)
         self.assertIn("bridge/everyday", done.stdout)
         self.assertIn("broken.json: ", done.stderr)
 
@@ -425,27 +385,21 @@ class Messages(unittest.TestCase):
         )
 
     def test_a_job_that_is_not_there_is_answered_with_the_nearest_one(self):
-        server, port = start_service(THRONG, self.folder / "data")
-        self.addCleanup(server.wait, 120)
-        self.addCleanup(server.terminate)
-        url = f"http://127.0.0.1:{port}"
+        url = self.serve()
         for command in ("watch", "cancel", "retry", "remove", "logs", "fetch"):
             self.refused(
                 f'unknown job "nope" on {url}; expected an id that `throng jobs` lists', command, "nope", THRONG_URL=url
             )
-        done = throng("submit", self.job(capture={"to_s": 1}), THRONG_URL=url)
-        job = done.stdout.strip()
+        job = printed("submit", self.job(capture={"to_s": 1}), variables={"THRONG_URL": url}).strip()
         self.refused(f'unknown job "{job[:-1]}" on {url}; did you mean "{job}"?', "watch", job[:-1], THRONG_URL=url)
-        throng("cancel", job, THRONG_URL=url)
+        throng("cancel", job, variables={"THRONG_URL": url})
 
     def test_a_server_that_is_not_there_is_named(self):
         url = f"http://127.0.0.1:{free_port()}"
         self.refused(f"cannot reach {url} (is `throng serve` running?", "jobs", code=3, THRONG_URL=url)
 
     def test_ports_and_addresses_say_why(self):
-        server, port = start_service(THRONG, self.folder / "data")
-        self.addCleanup(server.wait, 120)
-        self.addCleanup(server.terminate)
+        port = self.serve().rpartition(":")[2]
         serve = ("serve", "--data", self.folder / "other")
         self.refused("another program listens there", *serve, "--port", port, code=3)
         self.refused(
@@ -456,13 +410,12 @@ class Messages(unittest.TestCase):
     def test_renamed_options_keep_their_old_names_with_a_warning(self):
         data = self.folder / "data"
         done = throng("keys", "create", "alice", "--data", data, "--most-jobs", "3", "--most-gib=2")
-        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("--most-jobs is deprecated, use --max-jobs", done.stderr)
         self.assertIn("--most-gib is deprecated, use --max-gib", done.stderr)
-        done = throng("calibrate", "intrinsics", "--picture=plot.svg")
+        done = throng("calibrate", "intrinsics", "--picture=plot.svg", code=None)
         self.assertIn("--picture is deprecated, use --plot", done.stderr)
         self.assertEqual(throng("keys", "create", "bob", "--data", data, "--max-jobs", "3").stderr, "")
-        self.assertEqual(throng("keys", "create", "eve", "--data", data, "--most-jobs", "-3").returncode, 2)
+        throng("keys", "create", "eve", "--data", data, "--most-jobs", "-3", code=2)
 
 
 unittest.main()

@@ -10,13 +10,13 @@ import pathlib
 import sqlite3
 import struct
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy
 
-THRONG = sys.argv.pop(1)
+from program import THRONG, printed, throng
+
 
 WIDTH = 1.2
 BUILDINGS = [[[0, -10], [4, -10], [4, -WIDTH / 2], [0, -WIDTH / 2]], [[0, WIDTH / 2], [4, WIDTH / 2], [4, 10], [0, 10]]]
@@ -47,49 +47,20 @@ PLACE = {
 }
 
 
-def throng(*arguments):
-    done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
-
-
 @unittest.skipUnless(importlib.util.find_spec("h5py") or os.environ.get("CI"), "h5py is not installed")
 class Metrics(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         import h5py
 
-        cls.folder = tempfile.TemporaryDirectory()
-        base = cls.base = pathlib.Path(cls.folder.name)
+        base = cls.base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (base / "scene.xml").write_text(SCENE)
         (base / "behavior.xml").write_text(BEHAVIOR)
         (base / "place.json").write_text(json.dumps(PLACE))
-        throng(
-            "crowd",
-            "-s",
-            base / "scene.xml",
-            "-b",
-            base / "behavior.xml",
-            "-m",
-            "orca",
-            "-r",
-            "5",
-            "-d",
-            "90",
-            "-q",
-            "-o",
-            base / "run.h5",
-        )
-        throng(
-            "metrics",
-            base / "run.h5",
-            "--scenario",
-            base / "place.json",
-            "-o",
-            base / "run.json",
-            "--csv",
-            base / "exits.csv",
-        )
+        scene = ["-s", base / "scene.xml", "-b", base / "behavior.xml"]
+        throng("crowd", *scene, *"-m orca -r 5 -d 90 -q -o".split(), base / "run.h5")
+        place = ["--scenario", base / "place.json", "--csv", base / "exits.csv"]
+        throng("metrics", base / "run.h5", *place, "-o", base / "run.json")
         cls.figures = json.loads((base / "run.json").read_text())
         with open(base / "exits.csv", newline="") as file:
             cls.rows = list(csv.DictReader(file))
@@ -105,10 +76,6 @@ class Metrics(unittest.TestCase):
         people = numpy.arange(beyond.shape[1])
         cls.by_door = beyond.any(axis=0) & (numpy.abs(cls.place[beyond.argmax(axis=0), people, 1]) < WIDTH)
         cls.in_zone = (cls.place[..., 0] < 0) & (numpy.hypot(cls.place[..., 0], cls.place[..., 1]) < cls.zone_radius)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def column(self, name):
         return numpy.array([float(row[name]) for row in self.rows])
@@ -313,7 +280,7 @@ class Metrics(unittest.TestCase):
         for suffix in ("txt", "sqlite", "scb"):
             file = self.base / f"again.{suffix}"
             throng("metrics", self.base / "run.h5", "--to", file)
-            again = json.loads(throng("metrics", "--trajectory", file, "--scenario", self.base / "place.json"))
+            again = json.loads(printed("metrics", "--trajectory", file, "--scenario", self.base / "place.json"))
             self.assertEqual(again["exits"][0]["crossings"], self.figures["exits"][0]["crossings"], suffix)
             for name, value in self.figures["escape_time_percentiles"].items():
                 self.assertEqual(again["escape_time_percentiles"][name] is None, value is None)
@@ -328,7 +295,7 @@ class Metrics(unittest.TestCase):
         file.write_text("".join(f"{frame}\t{who}\t{x}\t{y}\n" for who, frame, x, y in rows))
         place = ("--scenario", self.base / "place.json", "--frame-rate", "10")
         for more in ((), ("--columns", "frame,id,x,y")):
-            again = json.loads(throng("metrics", "--trajectory", file, *place, *more))
+            again = json.loads(printed("metrics", "--trajectory", file, *place, *more))
             self.assertEqual(again["people"], self.figures["people"])
             self.assertEqual(again["exits"][0]["crossings"], self.figures["exits"][0]["crossings"])
 
@@ -358,8 +325,7 @@ class RecordedBottleneck(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        base = pathlib.Path(cls.folder.name)
+        base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (base / "walk.txt").write_bytes(gzip.decompress(RECORDING.read_bytes()))
         cls.place = {
             "name": "bottleneck",
@@ -368,23 +334,10 @@ class RecordedBottleneck(unittest.TestCase):
             "exits": [{"id": "opening", "from": [-0.25, 0], "to": [0.25, 0], "outward": [0, -1]}],
         }
         (base / "place.json").write_text(json.dumps(cls.place))
-        cls.figures = json.loads(
-            throng(
-                "metrics",
-                "--trajectory",
-                base / "walk.txt",
-                "--scenario",
-                base / "place.json",
-                "--csv",
-                base / "exits.csv",
-            )
-        )
+        place = ["--scenario", base / "place.json", "--csv", base / "exits.csv"]
+        cls.figures = json.loads(printed("metrics", "--trajectory", base / "walk.txt", *place))
         cls.rows = list(csv.DictReader((base / "exits.csv").read_text().splitlines()))
         cls.base = base
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def test_everybody_goes_out_and_nobody_in(self):
         door = self.figures["exits"][0]
@@ -416,14 +369,14 @@ class RecordedBottleneck(unittest.TestCase):
     def test_such_a_place_is_not_simulated(self):
         job = {"scenario": "place", "capture": {"to_s": 2}, "drones": [{"id": "d", "start": [0, 0, 20]}]}
         (self.base / "job.json").write_text(json.dumps(job))
-        done = subprocess.run(
-            [THRONG, "simulate", str(self.base / "job.json"), "-o", str(self.base / "run.h5")],
-            capture_output=True,
-            text=True,
-            timeout=300,
-            env={**os.environ, "THRONG_SCENARIOS": str(self.base)},
+        done = throng(
+            "simulate",
+            self.base / "job.json",
+            "-o",
+            self.base / "run.h5",
+            variables={"THRONG_SCENARIOS": self.base},
+            code=2,
         )
-        self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("only recorded people can be in it", done.stderr)
 
 

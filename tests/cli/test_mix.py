@@ -3,19 +3,17 @@ usage: test_mix.py THRONG"""
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
-import urllib.request
 
-from service import start_service
+import program
+from program import ROOT, THRONG
+from service import ask, send, start_service
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import throng  # noqa: E402
 
-THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
 JOB = {
     "scenario": [
         "city_square/nearest_exit",
@@ -44,18 +42,14 @@ PLACES = [
 class Mix(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = pathlib.Path(holder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (cls.folder / "job.json").write_text(json.dumps(JOB))
         cls.run_throng("run", "job.json", "-o", "out")
         cls.data = throng.Dataset(cls.folder / "out" / "dataset")
 
     @classmethod
     def run_throng(cls, *words, code=0):
-        done = subprocess.run([THRONG, *words], capture_output=True, text=True, cwd=cls.folder, timeout=300)
-        if done.returncode != code:
-            raise AssertionError(f"{words}: {done.returncode}\n{done.stderr}")
+        done = program.throng(*words, cwd=cls.folder, code=code)
         return done.stdout + done.stderr
 
     def manifest(self):
@@ -124,8 +118,8 @@ class Mix(unittest.TestCase):
             self.assertEqual([f.id for f in there], [f.id for f in self.data])
             for a, b in zip(there, self.data):
                 self.assertEqual(a.record, b.record)
-            jobs = json.loads(urllib.request.urlopen(url + "/v1/jobs").read())["jobs"]
-            plan = urllib.request.urlopen(f"{url}/v1/jobs/{jobs[0]['id']}/plan")
+            jobs = ask(url + "/v1/jobs")["jobs"]
+            plan = send(f"{url}/v1/jobs/{jobs[0]['id']}/plan")
             self.assertIn(b"<svg", plan.read())
         finally:
             server.terminate()

@@ -11,16 +11,14 @@ import shutil
 import signal
 import sqlite3
 import subprocess
-import sys
 import tempfile
 import unittest
 import urllib.error
 import urllib.request
 
-from service import start_service, wait_until
+from program import ROOT, THRONG, FolderTest, printed, write_json
+from service import send, start_service, wait_until
 
-THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 JOB = {
     "scenario": "city_square/nearest_exit",
     "quality": "draft",
@@ -68,14 +66,11 @@ def parse_metrics(text):
     return values
 
 
-class Operations(unittest.TestCase):
+class Operations(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.data = self.folder / "data"
-        self.job = self.folder / "job.json"
-        self.job.write_text(json.dumps(JOB))
+        self.job = write_json(self.folder / "job.json", JOB)
         self.environment = dict(os.environ)
 
     def start(self, *options, data=None, **of_process):
@@ -89,18 +84,12 @@ class Operations(unittest.TestCase):
         self.assertEqual(self.process.wait(300), 0)
 
     def throng(self, *arguments, code=0):
-        command = [THRONG, *map(str, arguments)]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=300, env=self.environment)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout if code == 0 else done.stderr
+        return printed(*arguments, env=self.environment, code=code)
 
     def ask(self, path, method="GET", body=None, key=None):
         """Status and body of an answer."""
-        headers = {"Content-Type": "application/json", **({"Authorization": f"Bearer {key}"} if key else {})}
-        data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(self.url + path, data, headers, method=method)
         try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
+            with send(self.url + path, body, method=method, key=key) as answer:
                 return answer.status, answer.read().decode()
         except urllib.error.HTTPError as error:
             return error.code, error.read().decode()
@@ -299,7 +288,7 @@ class Unit(unittest.TestCase):
         settings = dict(self.settings())
         words = settings["ExecStart"].split()
         self.assertEqual(words[1], "serve")
-        help_text = subprocess.run([THRONG, "serve", "--help"], capture_output=True, text=True).stdout
+        help_text = printed("serve", "--help")
         for option in (word for word in words if word.startswith("--")):
             self.assertRegex(help_text, rf"(?m)^ *{option}\b")
         drain_s = int(words[words.index("--drain-timeout") + 1])

@@ -3,24 +3,20 @@ import os
 import pathlib
 import re
 import subprocess
-import sys
-import tempfile
 import unittest
 
-THRONG = pathlib.Path(sys.argv.pop(1)).resolve()
-BUILD = THRONG.parents[1]
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+import program
+from program import ROOT, THRONG, FolderTest
+
+BUILD = pathlib.Path(THRONG).parents[1]
 
 
 # The scripts ask the program for names.
-os.environ["PATH"] = f"{THRONG.parent}:{os.environ['PATH']}"
+os.environ["PATH"] = f"{BUILD}/cli:{os.environ['PATH']}"
 
 
-def run(*command, **more):
-    done = subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=300, **more)
-    if done.returncode != 0:
-        raise AssertionError(f"{command}: {done.returncode}\n{done.stdout}\n{done.stderr}")
-    return done.stdout
+def run(*command, **options):
+    return program.run(*command, **options).stdout
 
 
 def commands():
@@ -29,12 +25,7 @@ def commands():
     return re.findall(r"^  ([a-z][a-z-]*)\s", text, re.M)
 
 
-class Package(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Package(FolderTest):
     def complete(self, *words):
         script = self.folder / "throng.bash"
         script.write_text(run(THRONG, "completion", "bash"))
@@ -156,27 +147,13 @@ class Package(unittest.TestCase):
         self.assertIn("city_square/nearest_exit", run(prefix / "bin/throng", "scenarios", env=clean))
         world = ROOT / "tests/places/imports/data/yard.sdf"  # imported by a program beside the installed one
         models = ROOT / "tests/places/imports/data/models"
-        run(
-            prefix / "bin/throng",
-            "scenario",
-            "import",
-            world,
-            "-o",
-            self.folder / "mine",
-            "--models",
-            models,
-            env=clean,
-        )
+        importing = ("scenario", "import", world, "-o", self.folder / "mine", "--models", models)
+        run(prefix / "bin/throng", *importing, env=clean)
         self.assertTrue((self.folder / "mine/yard.json").is_file())
-        for file in (
-            "throng/schemas/scenario.schema.json",
-            "man/man1/throng.1",
-            "bash-completion/completions/throng",
-            "zsh/vendor-completions/_throng",
-            "fish/vendor_completions.d/throng.fish",
-            "doc/throng/copyright",
-            "doc/throng/NOTICE",
-        ):
+        for file in """
+            throng/schemas/scenario.schema.json man/man1/throng.1 bash-completion/completions/throng
+            zsh/vendor-completions/_throng fish/vendor_completions.d/throng.fish doc/throng/copyright
+            doc/throng/NOTICE""".split():
             self.assertTrue((prefix / "share" / file).is_file(), file)
         installed = [str(file) for file in prefix.rglob("*") if file.is_file()]
         (build / "install_manifest_program.txt").write_text("\n".join(installed))
@@ -189,14 +166,7 @@ class Package(unittest.TestCase):
         [package] = self.folder.glob("*.deb")
         self.assertRegex(package.name, r"^throng_[\d.]+_[a-z0-9]+\.deb$")
         depends = run("dpkg-deb", "-f", package, "Depends")
-        for name in (
-            "libc6",
-            "libcholmod3",
-            "libsdformat12-12",
-            "libhdf5-103-1",
-            "libgl1-mesa-dri",
-            "fonts-dejavu-core",
-        ):
+        for name in "libc6 libcholmod3 libsdformat12-12 libhdf5-103-1 libgl1-mesa-dri fonts-dejavu-core".split():
             self.assertIn(name, depends)
         files = run("dpkg-deb", "-c", package)
         for file in (

@@ -7,19 +7,17 @@ import re
 import signal
 import struct
 import subprocess
-import sys
-import tempfile
 import unittest
 
 from PIL import Image
 
-THRONG = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, THRONG, FolderTest, throng, write_json
+
 PEOPLE = pathlib.Path(os.environ.get("THRONG_PEOPLE", ROOT / "build" / "people"))
 
 
-def people(*arguments):
-    return subprocess.run([THRONG, "people", *map(str, arguments)], capture_output=True, text=True, timeout=300)
+def people(*words, **options):
+    return throng("people", *words, **options)
 
 
 # Joint positions of a person of 1.8 m (x to their left, y up, z forward), and the parent of each.
@@ -90,42 +88,31 @@ def box_man(rename=lambda name: name):
     )
 
 
-class WithFolder(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.base = pathlib.Path(self.folder.name)
-
-    def tearDown(self):
-        self.folder.cleanup()
-
+class WithFolder(FolderTest):
     def names(self):
-        return sorted(p.name for p in self.base.iterdir())
+        return sorted(p.name for p in self.folder.iterdir())
 
     def describe(self, name, **more):
         description = {"name": name, "model": "man.gltf", "height_m": 1.7, "license": "CC0-1.0", **more}
-        file = self.base / f"{name}.json"
-        file.write_text(json.dumps(description))
+        file = write_json(self.folder / f"{name}.json", description)
         return file
 
 
 class Import(WithFolder):
     def test_makes_people_of_models(self):
-        (self.base / "man.gltf").write_text(box_man())
+        (self.folder / "man.gltf").write_text(box_man())
         one, other = self.describe("one"), self.describe("other", height_m=1.95, sex="female", wears="boxes")
-        done = people("import", one, "-o", self.base / "people")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        done = people("import", other, "--with", self.base / "people", "-o", self.base / "people")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        listed = people("list", self.base / "people").stdout
+        people("import", one, "-o", self.folder / "people")
+        people("import", other, "--with", self.folder / "people", "-o", self.folder / "people")
+        listed = people("list", self.folder / "people").stdout
         self.assertRegex(listed, r"one +male +35 +1\.70 m")
         self.assertRegex(listed, r"other +female +35 +1\.95 m +nothing +boxes")
-        done = people("sheet", self.base / "people", "--width", 1000, "-o", self.base / "s.png")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with Image.open(self.base / "s.png") as picture:
+        people("sheet", self.folder / "people", "--width", 1000, "-o", self.folder / "s.png")
+        with Image.open(self.folder / "s.png") as picture:
             self.assertEqual(picture.width, 1000)
 
     def test_says_what_is_wrong_and_leaves_nothing(self):
-        (self.base / "man.gltf").write_text(box_man(lambda name: name.replace("LeftUpLeg", "Gamba")))
+        (self.folder / "man.gltf").write_text(box_man(lambda name: name.replace("LeftUpLeg", "Gamba")))
         cases = [
             (self.describe("a"), r"/bones/left_thigh.*Gamba"),
             (self.describe("b", height_m=300), r"/height_m: found 300, expected 0\.5 to 2\.5"),
@@ -137,8 +124,7 @@ class Import(WithFolder):
         ]
         before = self.names()
         for file, said in cases:
-            done = people("import", file, "-o", self.base / "people")
-            self.assertEqual(done.returncode, 2, done.stderr)
+            done = people("import", file, "-o", self.folder / "people", code=2)
             self.assertRegex(done.stderr, said)
         self.assertEqual(self.names(), before)
 
@@ -151,9 +137,8 @@ class Sheet(WithFolder):
 
     def test_draws_a_picture_of_the_wanted_width(self):
         for name, kind in (("sheet.png", "PNG"), ("sheet.jpg", "JPEG")):
-            done = people("sheet", PEOPLE, "--count", 3, "--width", 1200, "-o", self.base / name)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            with Image.open(self.base / name) as picture:
+            people("sheet", PEOPLE, "--count", 3, "--width", 1200, "-o", self.folder / name)
+            with Image.open(self.folder / name) as picture:
                 self.assertEqual(picture.format, kind)
                 self.assertEqual(picture.width, 1200)
                 self.assertGreater(picture.height, 1000)
@@ -164,35 +149,33 @@ class Sheet(WithFolder):
         first, second = re.findall(r"^person_\d+", people("list", PEOPLE).stdout, re.M)[:2]
         sizes = []
         for names in (first, f"{first},{second}"):
-            done = people("sheet", PEOPLE, "--people", names, "--width", 800, "-o", self.base / "s.png")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            with Image.open(self.base / "s.png") as picture:
+            people("sheet", PEOPLE, "--people", names, "--width", 800, "-o", self.folder / "s.png")
+            with Image.open(self.folder / "s.png") as picture:
                 sizes.append(list(picture.convert("L").resize((50, 100)).getdata()))
         self.assertNotEqual(*sizes)
 
     def test_says_what_is_wrong_and_leaves_nothing(self):
-        (self.base / "folder.png").mkdir()
+        (self.folder / "folder.png").mkdir()
         before = self.names()
-        out = self.base / "s.png"
+        out = self.folder / "s.png"
         cases = [
-            ([PEOPLE, "-o", self.base / "s.bmp"], r"\.bmp.*\.png"),
-            ([PEOPLE, "-o", self.base / "sheet"], r"no extension"),
-            ([PEOPLE, "-o", self.base / "nowhere" / "s.png"], r"no folder .*nowhere"),
-            ([PEOPLE, "-o", self.base / "folder.png"], r"a folder"),
+            ([PEOPLE, "-o", self.folder / "s.bmp"], r"\.bmp.*\.png"),
+            ([PEOPLE, "-o", self.folder / "sheet"], r"no extension"),
+            ([PEOPLE, "-o", self.folder / "nowhere" / "s.png"], r"no folder .*nowhere"),
+            ([PEOPLE, "-o", self.folder / "folder.png"], r"a folder"),
             ([PEOPLE, "-o", out, "--people", "nobody"], r"nobody.*people list"),
             ([PEOPLE, "-o", out, "--count", "0"], r"--count.*at least 1"),
             ([PEOPLE, "-o", out, "--width", "10"], r"--width.*800"),
-            ([self.base, "-o", out], r"population\.json"),
+            ([self.folder, "-o", out], r"population\.json"),
         ]
         for arguments, said in cases:
-            done = people("sheet", *arguments)
-            self.assertEqual(done.returncode, 2, (arguments, done.stderr))
+            done = people("sheet", *arguments, code=2)
             self.assertRegex(done.stderr, said)
         self.assertEqual(self.names(), before)
 
     def test_stops_when_asked(self):
         process = subprocess.Popen(
-            [THRONG, "people", "sheet", PEOPLE, "--width", "8000", "-o", self.base / "s.png"],
+            [THRONG, "people", "sheet", PEOPLE, "--width", "8000", "-o", self.folder / "s.png"],
             stderr=subprocess.PIPE,
             text=True,
         )

@@ -12,12 +12,12 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
-import urllib.request
 import zipfile
 
 import test_crash as crash
+from program import FolderTest, throng
+from service import ask, send
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -137,16 +137,14 @@ class Disk:
         return [path.removeprefix(str(target)) for path in lost]
 
 
-class PowerLoss(unittest.TestCase):
+class PowerLoss(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.base = pathlib.Path(folder.name)
-        self.disk = Disk(self.base)
+        super().setUp()
+        self.disk = Disk(self.folder)
 
     def start(self, faults=None):
         os.environ.update(self.disk.environment)
-        self.server = crash.Server(self.base, self.disk.root / "data")
+        self.server = crash.Server(self.folder, self.disk.root / "data")
         self.server.start(faults)
         for name in self.disk.environment:
             del os.environ[name]
@@ -155,13 +153,13 @@ class PowerLoss(unittest.TestCase):
     def lose_power(self):
         """The server's successor, on what is left."""
         stop_all(self.server.process.pid)  # nothing is written while the image is made
-        image = self.base / "image"
+        image = self.folder / "image"
         try:
             lost = self.disk.image_after_power_loss(image)
         finally:
             self.server.kill()
             self.server.stop()
-        after = crash.Server(self.base, image / "data")
+        after = crash.Server(self.folder, image / "data")
         after.start()
         self.addCleanup(after.stop)
         return after, lost
@@ -188,10 +186,7 @@ class PowerLoss(unittest.TestCase):
         self.assertEqual([path for path in lost if f"jobs/{job}/dataset" in path], [])
         self.assertEqual(after.state(job), "succeeded")
         self.assertEqual(after.hash_of(job), before)
-        checked = subprocess.run(
-            [crash.THRONG, "validate", after.data / "jobs" / job / "dataset"], capture_output=True, text=True
-        )
-        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        throng("validate", after.data / "jobs" / job / "dataset")
 
     def test_a_job_goes_on_where_it_was(self):
         # The job cannot end before the power does.
@@ -203,7 +198,7 @@ class PowerLoss(unittest.TestCase):
         self.assertEqual(len(traces), 2, "published output is lost")
         end = after.wait_for_end(job)
         self.assertEqual(end["state"], "succeeded", end["error"])
-        undisturbed = crash.Server(self.base, self.base / "undisturbed")
+        undisturbed = crash.Server(self.folder, self.folder / "undisturbed")
         undisturbed.start()
         self.addCleanup(undisturbed.stop)
         again = undisturbed.request("POST", "/v1/jobs", crash.JOB)["id"]
@@ -217,13 +212,8 @@ class PowerLoss(unittest.TestCase):
             for path in sorted((HERE.parents[1] / "scenarios" / "city_square").rglob("*")):
                 if path.is_file():
                     archive.write(path, path.relative_to(HERE.parents[1] / "scenarios" / "city_square"))
-        request = urllib.request.Request(
-            self.server.url + "/v1/scenarios?name=mine",
-            data=bundle.getvalue(),
-            method="POST",
-            headers={"Content-Type": "application/zip"},
-        )
-        with urllib.request.urlopen(request, timeout=300) as answer:
+        url = self.server.url + "/v1/scenarios?name=mine"
+        with send(url, bundle.getvalue(), kind="application/zip") as answer:
             self.assertEqual(answer.status, 201)
         hook = self.server.request("POST", "/v1/webhooks", {"url": "https://example.org/hook"})
         slow = dict(crash.JOB, runs=20)
@@ -241,14 +231,7 @@ class PowerLoss(unittest.TestCase):
         scenarios = json.dumps(after.request("GET", "/v1/scenarios"))
         self.assertIn("mine/", scenarios)
         job = dict(crash.JOB, scenario="mine/nearest_exit")
-        request = urllib.request.Request(
-            after.url + "/v1/jobs?dry_run",
-            data=json.dumps(job).encode(),
-            method="POST",
-            headers={"Content-Type": "application/json"},
-        )
-        with urllib.request.urlopen(request, timeout=300) as answer:
-            self.assertTrue(json.load(answer)["valid"])
+        self.assertTrue(ask(after.url + "/v1/jobs?dry_run", job)["valid"])
 
 
 if __name__ == "__main__":

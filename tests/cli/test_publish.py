@@ -12,7 +12,6 @@ import random
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 import urllib.error
@@ -20,9 +19,9 @@ import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from object_store import KEY_ID, SECRET, ObjectStore, error  # noqa: E402
-from service import start_service, wait_until  # noqa: E402
+from program import THRONG, FolderTest, throng, write_json  # noqa: E402
+from service import ask, send, start_service, wait_until  # noqa: E402
 
-THRONG = sys.argv.pop(1)
 
 PART_BYTES = 8 << 20
 JOB = {
@@ -56,9 +55,9 @@ def files_of(folder, prefix=""):
     return {prefix + str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-class Publishing(unittest.TestCase):
+class Publishing(FolderTest):
     def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        super().setUp()
         self.store = self.enterContext(ObjectStore(self.folder / "store"))
         self.environment = self.clean_environment()
 
@@ -71,9 +70,7 @@ class Publishing(unittest.TestCase):
         return {**own, "HOME": str(self.folder), **self.store.environment, **more}
 
     def throng(self, *words, code=0, **more):
-        command = [THRONG, *map(str, words)]
-        done = subprocess.run(command, env={**self.environment, **more}, capture_output=True, text=True)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        done = throng(*words, env={**self.environment, **more}, code=code)
         self.assert_secret(done.stdout + done.stderr)
         return done
 
@@ -324,8 +321,7 @@ class Publishing(unittest.TestCase):
         self.store.wrong.clear()
 
     def test_a_run_publishes_its_dataset(self):
-        job = self.folder / "job.json"
-        job.write_text(json.dumps({**JOB, "outputs": {"publish": "s3://elsewhere/set"}}))
+        job = write_json(self.folder / "job.json", {**JOB, "outputs": {"publish": "s3://elsewhere/set"}})
         out = self.folder / "out"
         self.throng("run", job, "-o", out, code=2)
         self.throng("run", job, "-o", out, "--publish", "s3://data/set", code=3, AWS_SECRET_ACCESS_KEY="")
@@ -352,12 +348,8 @@ class Publishing(unittest.TestCase):
         answers = []
 
         def request(port, path, body=None):
-            data = None if body is None else json.dumps(body).encode()
-            headers = {"Content-Type": "application/json"}
             try:
-                with urllib.request.urlopen(
-                    urllib.request.Request(f"http://127.0.0.1:{port}{path}", data, headers), timeout=300
-                ) as response:
+                with send(f"http://127.0.0.1:{port}{path}", body) as response:
                     answers.append(response.read().decode(errors="replace"))
                     return response.status, json.loads(answers[-1]) if path.startswith("/v1") else None
             except urllib.error.HTTPError as refusal:
@@ -402,7 +394,7 @@ class Publishing(unittest.TestCase):
             failed = ended(request(port, "/v1/jobs", job("s3://data/team/a/1"))[1]["id"])
             self.assertEqual(failed["state"], "failed")
             self.assertIn("nothing is overwritten", failed["error"]["message"])
-            with urllib.request.urlopen(f"http://127.0.0.1:{port}/v1/jobs/{failed['id']}/archive") as archive:
+            with send(f"http://127.0.0.1:{port}/v1/jobs/{failed['id']}/archive") as archive:
                 self.assertIn(b"manifest.json", archive.read())
             theirs.unlink()
             metadata.unlink()
@@ -444,11 +436,8 @@ class Publishing(unittest.TestCase):
         options = {"env": self.environment}
         process, port = start_service(THRONG, data, "--publish-to", "s3://data", **options)
         self.store.fault = self.killing(process, lambda request: len(self.store.objects()) > 1)
-        body = json.dumps({**JOB, "outputs": {"publish": "s3://data/set"}}).encode()
-        headers = {"Content-Type": "application/json"}
-        request = urllib.request.Request(f"http://127.0.0.1:{port}/v1/jobs", body, headers)
-        with urllib.request.urlopen(request, timeout=300) as answer:
-            name = json.load(answer)["id"]
+        job = {**JOB, "outputs": {"publish": "s3://data/set"}}
+        name = ask(f"http://127.0.0.1:{port}/v1/jobs", job)["id"]
         process.wait()
         self.settle()
         there = set(self.store.objects())
@@ -457,8 +446,7 @@ class Publishing(unittest.TestCase):
         try:
 
             def state():
-                with urllib.request.urlopen(f"http://127.0.0.1:{port}/v1/jobs/{name}", timeout=300) as answer:
-                    return json.load(answer)["state"]
+                return ask(f"http://127.0.0.1:{port}/v1/jobs/{name}")["state"]
 
             wait_until(lambda: state() != "running")
             self.assertEqual(state(), "succeeded")

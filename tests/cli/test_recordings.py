@@ -5,8 +5,6 @@ import json
 import pathlib
 import resource
 import signal
-import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -14,9 +12,8 @@ import numpy
 from PIL import Image
 
 from mcap import matrix_of, read_recording
+from program import made, throng
 
-THRONG = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 JOB = {
     "name": "recordings",
@@ -62,23 +59,14 @@ RECORDED = {
 }
 
 
-def throng(*arguments, **options):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
-
-
 class Recordings(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.base = pathlib.Path(folder.name)
-        (cls.base / "job.json").write_text(json.dumps(JOB))
+        cls.base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.dataset = cls.base / "job/dataset"
         cls.out = cls.base / "out"
-        done = throng("run", cls.base / "job.json", "-o", cls.base / "job")
-        assert done.returncode == 0, done.stderr
-        done = throng("export", cls.dataset, "-o", cls.out, "--formats", "mcap", "--split", "val=run001")
-        assert done.returncode == 0, done.stderr
+        made(cls.base, JOB)
+        throng("export", cls.dataset, "-o", cls.out, "--formats", "mcap", "--split", "val=run001")
         cls.coco = json.loads((cls.dataset / "annotations/instances.json").read_text())
 
     def people(self, image):
@@ -195,16 +183,14 @@ class Recordings(unittest.TestCase):
             resource.setrlimit(resource.RLIMIT_FSIZE, (2_000_000, resource.RLIM_INFINITY))
 
         job = dict(JOB, runs=1, capture={"rate_hz": 8, "from_s": 6, "to_s": 12})
-        (self.base / "long.json").write_text(json.dumps(job))
-        done = throng("run", self.base / "long.json", "-o", self.base / "long")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        made(self.base, job, "long")
         out = self.base / "full"
         done = throng(
             *("export", self.base / "long/dataset", "-o", out, "--formats", "mcap"),
             preexec_fn=limit_files,
             restore_signals=False,
+            code=3,
         )
-        self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("the recording is complete until", done.stderr)
         self.assertIn("full.partial", done.stderr)
         self.assertFalse(out.exists())

@@ -6,20 +6,14 @@ import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
-THRONG = sys.argv.pop(1)
+from program import printed, throng
+
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 CHARTS_OF_A_RUN = 5
 MAPS_OF_A_RUN = 4  # and the diagram, by ECharts; the rest are Studio's charts
-
-
-def throng(*arguments):
-    done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
 
 
 class Balance(html.parser.HTMLParser):
@@ -43,31 +37,14 @@ class Balance(html.parser.HTMLParser):
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        base = cls.base = pathlib.Path(cls.folder.name)
+        base = cls.base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (base / "runs").mkdir()
         scenario = pathlib.Path(__file__).parents[2] / "scenarios/city_square"
         for seed in (1, 2):
-            throng(
-                "crowd",
-                "-s",
-                scenario / "square_scene.xml",
-                "-b",
-                scenario / "nearest_exit_behavior.xml",
-                "-r",
-                seed,
-                "-d",
-                60,
-                "-q",
-                "-o",
-                base / f"runs/run{seed}.h5",
-            )
+            files = ["-s", scenario / "square_scene.xml", "-b", scenario / "nearest_exit_behavior.xml"]
+            throng("crowd", *files, "-r", seed, "-d", 60, "-q", "-o", base / f"runs/run{seed}.h5")
         throng("report", base / "runs", "--scenario", "city_square/nearest_exit", "-o", base / "report.html")
         cls.text = (base / "report.html").read_text()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def test_is_well_formed_and_fetches_nothing(self):
         parser = Balance()
@@ -82,7 +59,7 @@ class Report(unittest.TestCase):
     def test_tables_need_no_script(self):
         markup = self.text[: self.text.index("<script")]
         self.assertEqual(markup.count("<table>"), 5)
-        metrics = throng("metrics", self.base / "runs/run2.h5", "--scenario", "city_square/nearest_exit")
+        metrics = printed("metrics", self.base / "runs/run2.h5", "--scenario", "city_square/nearest_exit")
         people = json.loads(metrics)["people"]
         self.assertGreater(people, 100)
         self.assertIn(f"<td>run2</td><td>{people}</td>", markup)

@@ -4,7 +4,6 @@ import io
 import json
 import math
 import os
-import pathlib
 import queue
 import re
 import signal
@@ -28,8 +27,8 @@ from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-THRONG = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, THRONG, FolderTest
+
 sys.path.insert(0, str(ROOT / "examples/ros"))
 import throng_ros1  # noqa: E402
 from foxglove_client import FoxgloveClient  # noqa: E402
@@ -127,25 +126,23 @@ class Watch:
         return message
 
 
-class RosNode(unittest.TestCase):
+class RosNode(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.base = pathlib.Path(folder.name)
-        (self.base / "job.json").write_text(json.dumps(JOB))
+        super().setUp()
+        (self.folder / "job.json").write_text(json.dumps(JOB))
 
     def begin_flight(self, *options):
         """Starts a flight; returns its address."""
-        command = [THRONG, "live", self.base / "job.json", "--port", "0", *options]
-        with open(self.base / "flight.txt", "w") as log:
+        command = [THRONG, "live", self.folder / "job.json", "--port", "0", *options]
+        with open(self.folder / "flight.txt", "w") as log:
             self.flight = subprocess.Popen(list(map(str, command)), stdout=log, stderr=log)
         self.addCleanup(end, self.flight)
         address = re.compile(r"ws://[\d.:]+")
-        poll(lambda: self.flight.poll() is not None or address.search((self.base / "flight.txt").read_text()))
-        return address.search((self.base / "flight.txt").read_text())[0]
+        poll(lambda: self.flight.poll() is not None or address.search((self.folder / "flight.txt").read_text()))
+        return address.search((self.folder / "flight.txt").read_text())[0]
 
     def begin_node(self, *arguments):
-        with open(self.base / "node.txt", "w") as log:
+        with open(self.folder / "node.txt", "w") as log:
             self.node = subprocess.Popen(
                 [sys.executable, ROOT / "examples/ros/throng_ros1.py", *arguments], stdout=log, stderr=log
             )
@@ -153,7 +150,7 @@ class RosNode(unittest.TestCase):
 
     def node_end(self):
         """The node's exit status and its words."""
-        return self.node.wait(PATIENCE_S), (self.base / "node.txt").read_text()
+        return self.node.wait(PATIENCE_S), (self.folder / "node.txt").read_text()
 
     def watch(self, topic, message_class):
         watch = Watch(topic, message_class)
@@ -310,7 +307,7 @@ class RosNode(unittest.TestCase):
         velocity.linear.x = 99
         self.publisher("/d1/cmd_vel", Twist).publish(velocity)
         refused = re.compile(r"\[ERROR\].*/d1/cmd_vel: /linear: found \[99")
-        poll(lambda: refused.search((self.base / "node.txt").read_text()))
+        poll(lambda: refused.search((self.folder / "node.txt").read_text()))
 
     def test_services(self):
         self.begin_node(self.begin_flight("--factor", 4, "--no-camera"))
@@ -366,7 +363,7 @@ class RosNode(unittest.TestCase):
 
     def test_messages_are_decoded_as_others_do(self):
         """All that a client gets from a flight is in its recording, which @foxglove/rosmsg2-serialization reads."""
-        file = self.base / "flight.mcap"
+        file = self.folder / "flight.mcap"
         client = FoxgloveClient(self.begin_flight("--paused", "--record", file))
         decoders = {
             topic: throng_ros1.Decoder(each.schema_name, each.schema) for topic, each in client.channels.items()

@@ -4,17 +4,13 @@ import json
 import os
 import pathlib
 import re
-import subprocess
-import sys
 import tempfile
 
-THRONG = os.path.abspath(sys.argv[1])
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, THRONG, run, throng
 
 
-def throng(*arguments, cwd, code=0):
-    done = subprocess.run([THRONG, *arguments], cwd=cwd, capture_output=True, text=True)
-    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
+def said(*words, **options):
+    done = throng(*words, **options)
     return done.stdout + done.stderr
 
 
@@ -28,11 +24,10 @@ def test_ten_minutes(folder):
     (folder / "job.json").write_text(job)
     commands = [line for block in re.findall(r"```sh\n(.*?)```", text, re.S) for line in block.splitlines()]
     assert len(commands) == 5, commands
-    environment = dict(os.environ, PATH=f"{folder}:{os.environ['PATH']}")
+    variables = {"PATH": f"{folder}:{os.environ['PATH']}"}
     (folder / "throng").symlink_to(THRONG)
     for command in commands:
-        done = subprocess.run(["bash", "-ec", command], cwd=folder, env=environment, capture_output=True, text=True)
-        assert done.returncode == 0, (command, done.stdout, done.stderr)
+        run("bash", "-ec", command, cwd=folder, variables=variables)
     assert "<svg" in (folder / "yard.svg").read_text()
     assert list((folder / "my_scenarios").glob("plaza_5_*.json"))
     datasets = [path.parent for path in (folder / "out").rglob("manifest.json")]
@@ -44,15 +39,15 @@ def test_check_says_what_is_wrong(folder):
     for name in ("river.obj", "river.mtl"):
         (folder / name).write_text((ROOT / "scenarios" / "bridge" / name).read_text())
     (folder / "good.blueprint.json").write_text(json.dumps(scenario))
-    assert "0 errors" in throng("scenario", "check", "good.blueprint.json", cwd=folder)
+    assert "0 errors" in said("scenario", "check", "good.blueprint.json", cwd=folder)
     throng("scenario", "make", "good.blueprint.json", "-o", "made", cwd=folder)
     for name in ("river.obj", "river.mtl"):
         (folder / "made" / name).write_text((ROOT / "scenarios" / "bridge" / name).read_text())
-    assert "0 errors" in throng("scenario", "check", "made/good.json", cwd=folder)
+    assert "0 errors" in said("scenario", "check", "made/good.json", cwd=folder)
     scenario["drones"][0]["start"] = [-66, 20, 11.2]
     (folder / "bad.blueprint.json").write_text(json.dumps(scenario))
-    said = throng("scenario", "check", "bad.blueprint.json", cwd=folder, code=2)
-    assert "/drones/0/start" in said and "remedy" in said, said
+    message = said("scenario", "check", "bad.blueprint.json", cwd=folder, code=2)
+    assert "/drones/0/start" in message and "remedy" in message, message
 
 
 def test_a_plan_shows_the_ways_of_a_jobs_drones(folder):
@@ -84,8 +79,8 @@ def test_a_generated_place_in_a_job(folder):
     assert (folder / "a.h5").stat().st_size == (folder / "b.h5").stat().st_size
     job["scenario"]["generate"]["kind"] = "moon"
     (folder / "job.json").write_text(json.dumps(job))
-    said = throng("simulate", "job.json", "-o", "c.h5", cwd=folder, code=2)
-    assert "/scenario/generate/kind" in said and "campus" in said, said
+    message = said("simulate", "job.json", "-o", "c.h5", cwd=folder, code=2)
+    assert "/scenario/generate/kind" in message and "campus" in message, message
 
 
 def test_names_say_where_things_lie(_):

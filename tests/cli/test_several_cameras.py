@@ -3,8 +3,6 @@
 import csv
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
@@ -12,7 +10,7 @@ import xml.etree.ElementTree
 import numpy
 from PIL import Image
 
-THRONG = sys.argv.pop(1)
+from program import made
 
 
 def two_camera(yaw_deg, **more):
@@ -50,16 +48,9 @@ def rotation(vector):
 class SeveralCameras(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        base = pathlib.Path(cls.folder.name)
-        (base / "job.json").write_text(json.dumps(JOB))
-        subprocess.run([THRONG, "run", base / "job.json", "-o", base / "job"], check=True, timeout=300)
-        cls.dataset = base / "job/dataset"
+        base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.dataset = made(base, JOB) / "dataset"
         cls.formats = cls.dataset / "formats"
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def crops(self, folder):
         """(identity, camera, pixels) as readers of Market-1501 take them from the names."""

@@ -10,13 +10,11 @@ import json
 import os
 import pathlib
 import re
-import subprocess
-import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-THRONG = sys.argv[1]
+from program import ROOT, printed, throng
+
 IS_LONG = bool(os.environ.get("THRONG_LONG"))
 PEOPLE, DURATION_S = (250, 300) if IS_LONG else (60, 150)
 # The blueprint's, city_square/nearest_exit and its three cases, and the same with walls around obstacles.
@@ -60,10 +58,10 @@ def metrics_of(scenario, folder, drones=None):
         job["drones"] = drones
     job_file, trace = pathlib.Path(folder) / "job.json", pathlib.Path(folder) / "run.h5"
     job_file.write_text(json.dumps(job))
-    subprocess.run([THRONG, "simulate", job_file, "-o", trace], check=True, capture_output=True, cwd=ROOT)
-    said = subprocess.run([THRONG, "metrics", trace], check=True, capture_output=True, cwd=ROOT, text=True)
+    throng("simulate", job_file, "-o", trace, cwd=ROOT)
+    metrics = printed("metrics", trace, cwd=ROOT)
     trace.unlink()
-    return json.loads(said.stdout)
+    return json.loads(metrics)
 
 
 class Shipped(unittest.TestCase):
@@ -90,4 +88,4 @@ class Shipped(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main()

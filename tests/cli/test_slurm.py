@@ -8,18 +8,16 @@ import json
 import os
 import pathlib
 import signal
-import subprocess
 import sys
 import tempfile
 import time
 import unittest
-import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from service import start_service, wait_until  # noqa: E402
+from program import THRONG, FolderTest, throng, write_json  # noqa: E402
+from service import send, start_service, wait_until  # noqa: E402
 from slurm_cluster import Cluster, is_alive, missing_programs  # noqa: E402
 
-THRONG = sys.argv.pop(1)
 
 JOB = {
     "name": "cluster",
@@ -47,13 +45,13 @@ def ends_of(job_folder):
 
 class Server:
     def __init__(self, base, environment):
-        self.base, self.environment, self.process = base, environment, None
+        self.folder, self.environment, self.process = base, environment, None
         self.log = open(base / "server.log", "ab")
 
     def start(self, faults=""):
-        options = ["--database", self.base / "local", "--executor", "slurm", *POLL]
+        options = ["--database", self.folder / "local", "--executor", "slurm", *POLL]
         environment = dict(self.environment, THRONG_FAULTS=faults)
-        self.process, port = start_service(THRONG, self.base / "shared", *options, stderr=self.log, env=environment)
+        self.process, port = start_service(THRONG, self.folder / "shared", *options, stderr=self.log, env=environment)
         self.url = f"http://127.0.0.1:{port}"
 
     def end(self, number):
@@ -67,11 +65,7 @@ class Server:
         self.log.close()
 
     def request(self, method, path, body=None):
-        data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(
-            self.url + path, data=data, method=method, headers={"Content-Type": "application/json"}
-        )
-        with urllib.request.urlopen(request, timeout=300) as answer:
+        with send(self.url + path, body, method=method) as answer:
             text = answer.read()
         return json.loads(text or b"null") if path.startswith("/v1") else text.decode()
 
@@ -88,24 +82,18 @@ class Server:
     f"skipped: this machine has no {', '.join(missing_programs())} (Debian: slurm-wlm, munge)",
 )
 @unittest.skipIf(os.getuid() != 0, "skipped: only root may look into workers, which are protected from their own user")
-class Slurm(unittest.TestCase):
+class Slurm(FolderTest):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         base = pathlib.Path(cls.folder.name)
-        cls.job_file = base / "job.json"
-        cls.job_file.write_text(json.dumps(JOB))
-        subprocess.run([THRONG, "run", str(cls.job_file), "-o", str(base / "local")], check=True, capture_output=True)
+        cls.job_file = write_json(base / "job.json", JOB)
+        throng("run", cls.job_file, "-o", base / "local")
         cls.expected = files_of(base / "local" / "dataset")
 
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.base = pathlib.Path(folder.name)
-
     def start_cluster(self, **options):
-        self.cluster = Cluster(self.base / "cluster", **options)
+        self.cluster = Cluster(self.folder / "cluster", **options)
         self.addCleanup(self.cluster.stop)
         self.cluster.__enter__()
 
@@ -145,7 +133,7 @@ class Slurm(unittest.TestCase):
 
     def test_run_on_two_nodes(self):
         self.start_cluster()
-        out = self.base / "out"
+        out = self.folder / "out"
         refused = self.cluster.run(
             THRONG, "run", str(self.job_file), "-o", str(out), "--executor", "slurm", "--slurm-partition", "nope"
         )
@@ -177,12 +165,12 @@ class Slurm(unittest.TestCase):
 
     def test_service_survives_what_dies(self):
         self.start_cluster(node_timeout_s=10)  # a lost node is waited for
-        server = Server(self.base, self.cluster.environment)
+        server = Server(self.folder, self.cluster.environment)
         self.addCleanup(server.close)
         # Simulations rest for a while at their beginning: time to kill somebody.
         server.start("slow:run000/trace:12")
         name = server.request("POST", "/v1/jobs", JOB)["id"]
-        folder = self.base / "shared" / "jobs" / name
+        folder = self.folder / "shared" / "jobs" / name
 
         # The server dies while tasks run; the next one finds them.
         worker, _ = self.worker_of("run000/trace")
@@ -244,11 +232,11 @@ class Slurm(unittest.TestCase):
         self.assertIn(
             f'throng_node_attempts_total{{node="{other}",outcome="succeeded"}}', server.request("GET", "/metrics")
         )
-        self.assertFalse((self.base / "shared" / "jobs.sqlite").exists(), "the database is local")
+        self.assertFalse((self.folder / "shared" / "jobs.sqlite").exists(), "the database is local")
 
     def test_cancel_ends_tasks(self):
         self.start_cluster()
-        server = Server(self.base, self.cluster.environment)
+        server = Server(self.folder, self.cluster.environment)
         self.addCleanup(server.close)
         server.start("slow:run000/trace:400")
         name = server.request("POST", "/v1/jobs?priority=40", JOB)["id"]
@@ -258,7 +246,7 @@ class Slurm(unittest.TestCase):
         wait_until(lambda: not is_alive(worker), what="the worker's end")
         wait_until(lambda: not self.tasks("RUNNING", "PENDING", "COMPLETING"), what="an empty queue")
         self.assertEqual(server.job(name)["state"], "cancelled")
-        self.assertFalse((self.base / "shared" / "jobs" / name / "attempts").exists())
+        self.assertFalse((self.folder / "shared" / "jobs" / name / "attempts").exists())
 
 
 if __name__ == "__main__":

@@ -21,10 +21,11 @@ import tempfile
 import time
 import unittest
 
+from program import THRONG, throng, write_json
+
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import fake_slurm  # noqa: E402
 
-THRONG = sys.argv.pop(1)
 HERE = pathlib.Path(__file__).parent
 IS_LONG = bool(os.environ.get("THRONG_LONG"))
 FRAMES_PER_RUN = 10
@@ -71,17 +72,14 @@ def counts_in(file):
 class SlurmSize(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.base = pathlib.Path(folder.name)
+        cls.base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.library = cls.base / "shared_folder.so"
         subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", cls.library, HERE / "shared_folder.c"], check=True)
         cls.runs = 1000 if IS_LONG else 8
-        cls.job_file = cls.base / "job.json"
-        cls.job_file.write_text(json.dumps(job_of(cls.runs)))
+        cls.job_file = write_json(cls.base / "job.json", job_of(cls.runs))
         begun = time.monotonic()
         local = cls.base / "local"
-        subprocess.run([THRONG, "run", cls.job_file, "-o", local, "--workers", "2"], check=True, capture_output=True)
+        throng("run", cls.job_file, "-o", local, "--workers", "2")
         print(f"one machine: {time.monotonic() - begun:.1f} s", file=sys.stderr)
         cls.expected = hashes_of(local / "dataset")
 

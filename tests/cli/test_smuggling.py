@@ -20,11 +20,16 @@ import unittest
 import urllib.error
 import zipfile
 
+from program import THRONG, throng
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 import hostile  # noqa: E402
 
-THRONG = sys.argv.pop(1)
 HOST = b"Host: localhost\r\n"
+# Options of curl.
+JSON_BODY = ("-H", "Content-Type: application/json", "--data-binary", "@-")
+CHUNKED = ("-H", "Transfer-Encoding: chunked")
+STATUS_ONLY = ("-o", "/dev/null", "-w", "%{http_code}")
 MOMENT_S = 1
 NONE_S = 2  # until it is clear that no answer comes, where none is as good as a refusal
 
@@ -90,12 +95,7 @@ class Attacks:
         cls.throng = hostile.Throng(THRONG, cls.folder.name)
         cls.addClassCleanup(cls.throng.stop)
         data = str(pathlib.Path(cls.folder.name) / "data")
-        cls.reader = subprocess.run(
-            [THRONG, "keys", "create", "reader", "--data", data, "--scope", "read"],
-            check=True,
-            capture_output=True,
-            text=True,
-        ).stdout.split()[-1]
+        cls.reader = throng("keys", "create", "reader", "--data", data, "--scope", "read").stdout.split()[-1]
         cls.front = cls.entrance()
 
     def setUp(self):
@@ -388,18 +388,10 @@ class Attacks:
 
     def test_other_spellings_of_the_path(self):
         """Scopes are those of the route that answers, however its path is written."""
-        for path in (
-            "/v1/%77ebhooks",
-            "/v1//webhooks",
-            "/v1/./webhooks",
-            "/v1/jobs/../webhooks",
-            "/v1/webhooks/",
-            "/V1/webhooks",
-            "/v1/webhooks;x",
-            "/v1/webhooks%3f",
-            "/v1/webhooks%20",
-            "/v1/jobs/..%2fwebhooks",
-        ):
+        paths = """
+            /v1/%77ebhooks /v1//webhooks /v1/./webhooks /v1/jobs/../webhooks /v1/webhooks/ /V1/webhooks
+            /v1/webhooks;x /v1/webhooks%3f /v1/webhooks%20 /v1/jobs/..%2fwebhooks""".split()
+        for path in paths:
             for method, body in (("GET", b""), ("POST", b'{"url": "http://a"}')):
                 head = (
                     f"{method} {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nAuthorization: Bearer {self.reader}\r\n"
@@ -434,18 +426,7 @@ class Attacks:
 
     def test_curl_waits_for_continue(self):
         body = json.dumps(hostile.JOB).encode()
-        out = self.curl(
-            "-i",
-            "-H",
-            "Expect: 100-continue",
-            "-H",
-            "Content-Type: application/json",
-            "--data-binary",
-            "@-",
-            "--http1.1",
-            "/v1/jobs?dry_run",
-            data=body,
-        )
+        out = self.curl("-i", "-H", "Expect: 100-continue", *JSON_BODY, "--http1.1", "/v1/jobs?dry_run", data=body)
         self.assertIn(b"100 Continue", out)
         self.assertIn(b"200", out.split(b"\r\n\r\n")[1])
 
@@ -498,20 +479,7 @@ class BarePort(Attacks, unittest.TestCase):
         super().setUp()
 
     def test_chunked_uploads_arrive(self):
-        code = self.curl(
-            "-H",
-            "Content-Type: application/json",
-            "-H",
-            "Transfer-Encoding: chunked",
-            "--data-binary",
-            "@-",
-            "-o",
-            "/dev/null",
-            "-w",
-            "%{http_code}",
-            "/v1/jobs?dry_run",
-            data=json.dumps(hostile.JOB).encode(),
-        )
+        code = self.curl(*CHUNKED, *JSON_BODY, *STATUS_ONLY, "/v1/jobs?dry_run", data=json.dumps(hostile.JOB).encode())
         self.assertEqual(code, b"200")
 
     def test_slow_heads_are_cut_off(self):
@@ -562,21 +530,7 @@ class ThroughNginx(Attacks, unittest.TestCase):
 
     def test_chunked_uploads_arrive(self):
         body = json.dumps(hostile.JOB).encode()
-        code = self.curl(
-            "-H",
-            "Content-Type: application/json",
-            "-H",
-            "Transfer-Encoding: chunked",
-            "--data-binary",
-            "@-",
-            "--http1.1",
-            "-o",
-            "/dev/null",
-            "-w",
-            "%{http_code}",
-            "/v1/jobs?dry_run",
-            data=body,
-        )
+        code = self.curl(*CHUNKED, *JSON_BODY, "--http1.1", *STATUS_ONLY, "/v1/jobs?dry_run", data=body)
         self.assertEqual(code, b"200")
 
     def test_other_connections_of_the_upstream_are_shared(self):

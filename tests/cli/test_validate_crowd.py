@@ -5,11 +5,10 @@ import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 
-THRONG = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, THRONG, FolderTest, printed, throng
+
 SPEED_MPS = 0.8
 GAP_S = 2.0
 PEOPLE = 12
@@ -42,15 +41,9 @@ def description():
     }
 
 
-def run(*arguments):
-    return subprocess.run([THRONG, "validate-crowd", *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-
-class ValidateCrowd(unittest.TestCase):
+class ValidateCrowd(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "walk.txt.gz").write_bytes(gzip.compress(recording().encode()))
         self.describe(description())
 
@@ -58,13 +51,10 @@ class ValidateCrowd(unittest.TestCase):
         (self.folder / "experiments.json").write_text(json.dumps(document))
 
     def printed(self, *arguments):
-        done = run(*arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout
+        return printed("validate-crowd", *arguments)
 
     def refused(self, words, *arguments):
-        done = run(*arguments)
-        self.assertEqual(done.returncode, 2, done.stderr)
+        done = throng("validate-crowd", *arguments, code=2)
         self.assertEqual(done.stdout, "")
         for word in words:
             self.assertIn(word, done.stderr)

@@ -14,6 +14,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests" / "cli")]
+from sound_jobs import GEOMETRY  # noqa: E402
+
 os.environ.setdefault("MPLBACKEND", "Agg")
 
 THRONG = pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
@@ -59,35 +61,7 @@ JOB = {
         },
     ],
     "outputs": {
-        "annotations": [
-            "coco",
-            "keypoints",
-            "skeletons",
-            "actions",
-            "amodal",
-            "vehicles",
-            "difficulty",
-            "heads",
-            "occluders",
-            "density",
-            "exits",
-            "hazards",
-            "fields",
-            "counts",
-            "trajectories",
-            "events",
-            "depth",
-            "instances",
-            "parts",
-            "normals",
-            "flow",
-            "flow_backward",
-            "flow_occlusion",
-            "scene_flow",
-            "hazard_opacity",
-            "semantic",
-            "sensors",
-        ],
+        "annotations": GEOMETRY,
         "previews": 1,
         "fields": {"cells_m": [1, 3.1]},
         "counts": {

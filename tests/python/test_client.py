@@ -91,11 +91,15 @@ class Proxy:
                 client.shutdown(socket.SHUT_RDWR)
 
 
+def run(*words, **options):
+    command = [common.THRONG, *words]
+    return subprocess.run(command, check=True, capture_output=True, encoding="utf-8", timeout=300, **options)
+
+
 class WithService(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.base = pathlib.Path(cls.temporary.name)
+        cls.base = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.port = free_port()  # at which it comes back
         cls.start()
         cls.client = Client(f"http://127.0.0.1:{cls.port}", timeout_s=300, patience_s=300)
@@ -111,15 +115,12 @@ class WithService(unittest.TestCase):
     def tearDownClass(cls):
         cls.server.terminate()
         cls.server.wait(120)
-        cls.temporary.cleanup()
 
     def setUp(self):
         self.proxy.cuts = 0
 
     def folder(self):
-        folder = tempfile.TemporaryDirectory(dir=self.base)
-        self.addCleanup(folder.cleanup)
-        return pathlib.Path(folder.name)
+        return pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(dir=self.base)))
 
     def test_a_finished_job(self):
         id_ = self.done["id"]
@@ -305,12 +306,7 @@ class WithService(unittest.TestCase):
     def test_scenarios(self):
         folder = self.folder()
         (folder / "yard.blueprint.json").write_text(json.dumps(PLACE))
-        subprocess.run(
-            [common.THRONG, "scenario", "make", "yard.blueprint.json", "-o", "mine"],
-            cwd=folder,
-            check=True,
-            capture_output=True,
-        )
+        run("scenario", "make", "yard.blueprint.json", "-o", "mine", cwd=folder)
         self.assertEqual(self.client.upload_scenario(folder / "mine", "yards", dry_run=True)["ids"], ["yards/yard"])
         self.assertEqual(self.client.upload_scenario(folder / "mine", "yards")["ids"], ["yards/yard"])
         self.assertIn("yards/yard", [s["id"] for s in self.client.scenarios()])
@@ -405,7 +401,7 @@ class WithService(unittest.TestCase):
     def test_the_service_itself(self):
         self.assertEqual(
             self.client.version(),
-            subprocess.run([common.THRONG, "--version"], capture_output=True, text=True).stdout.split()[-1],
+            run("--version").stdout.split()[-1],
         )
         self.assertTrue(self.client.is_alive() and self.client.is_ready())
         self.assertIn("paths", self.client.openapi())
@@ -432,12 +428,7 @@ class WithService(unittest.TestCase):
     def test_z_keys(self):
         """Last: from the first key on everybody needs one."""
         self.client.change(self.done["id"], labels=["shared"])  # for keys that may only read
-        made = subprocess.run(
-            [common.THRONG, "keys", "create", "reader", "--scope", "read", "--data", self.base / "data"],
-            capture_output=True,
-            text=True,
-            check=True,
-        )
+        made = run("keys", "create", "reader", "--scope", "read", "--data", self.base / "data")
         key = next(word for word in (made.stdout + made.stderr).split() if word.startswith("throng_"))
         with self.assertRaises(throng.AccessError) as nobody:
             self.client.job(self.done["id"])
@@ -449,12 +440,7 @@ class WithService(unittest.TestCase):
             reader.submit(JOB)
         self.assertEqual(readers.exception.status, 403)
         self.assertNotIn(key, repr(reader))
-        made = subprocess.run(
-            [common.THRONG, "keys", "create", "admin", "--scope", "admin", "--data", self.base / "data"],
-            capture_output=True,
-            text=True,
-            check=True,
-        )
+        made = run("keys", "create", "admin", "--scope", "admin", "--data", self.base / "data")
         admin = Client(self.client._http.url, made.stdout.strip())
         self.assertTrue(admin.may_submit())
         never = datetime.datetime(2100, 2, 3, tzinfo=datetime.timezone.utc)

@@ -89,9 +89,7 @@ def zeros_of(name: str, count: int) -> io.BytesIO:
 
 class Damage(unittest.TestCase):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.temporary.name)
-        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def write(self, content, kind="folder"):
         path = self.folder / f"set{len(list(self.folder.iterdir()))}"

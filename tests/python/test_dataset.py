@@ -24,8 +24,7 @@ class Reading(unittest.TestCase):
         cls.of_image = {}
         for record in cls.coco["annotations"]:
             cls.of_image.setdefault(record["image_id"], []).append(record)
-        cls.temporary = tempfile.TemporaryDirectory()
-        folder = cls.temporary.name
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
         with tarfile.open(f"{folder}/linked.tar", "w") as archive:  # with hard links, as the program's archives
             archive.add(cls.path, "set")
             link = tarfile.TarInfo("set/formats/first.jpg")
@@ -41,10 +40,6 @@ class Reading(unittest.TestCase):
             "job's folder": Dataset(cls.path.parent),
             **{name: Dataset(f"{folder}/{name}") for name in ("linked.tar", "plain.tar", "stored.zip", "deflated.zip")},
         }
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def test_what_it_is(self):
         for name, dataset in self.datasets.items():

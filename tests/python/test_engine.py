@@ -34,9 +34,7 @@ def sha256(path):
 
 class Engine(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def simulated(self, job):
         """The hash of the trace that the program writes."""

@@ -39,9 +39,7 @@ def call(code, cwd, *arguments):
 
 class Package(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def build(self, source, kind):
         # As pip and build, without looking for packages elsewhere.

@@ -66,9 +66,7 @@ def call(code, *arguments, **more):
 
 class Portable(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def answer(self, *arguments, **more):
         done = call(*arguments, **more)

@@ -14,9 +14,7 @@ from throng import DatasetError, open_real_set
 
 class Folder(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.root = pathlib.Path(temporary.name)
+        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def write(self, name, text=""):
         path = self.root / name
@@ -306,9 +304,7 @@ class Exports(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.out = pathlib.Path(folder.name) / "out"
+        cls.out = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory())) / "out"
         formats = "visdrone-det,visdrone-mot,mot,uavdt,dronecrowd,shanghaitech"
         command = [common.THRONG, "export", common.dataset_folder(), "-o", cls.out, "--formats", formats]
         subprocess.run(command, check=True, capture_output=True, timeout=300)

@@ -30,8 +30,7 @@ HALL = {
 class Traces(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        folder = pathlib.Path(cls.temporary.name)
+        folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (folder / "hall.blueprint.json").write_text(json.dumps(HALL))
         (folder / "job.json").write_text(json.dumps({"scenario": "hall", "seed": 3, "capture": {"to_s": 40}}))
         environment = {"THRONG_SCENARIOS": str(folder / "s"), "PATH": "/usr/bin:/bin"}
@@ -44,10 +43,6 @@ class Traces(unittest.TestCase):
         cls.path = folder / "run.h5"
         cls.metrics = json.loads((folder / "metrics.json").read_text())
         cls.trace = Trace(cls.path)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def test_says_which_model_moved_the_people(self):
         self.assertEqual(self.trace.crowd["model"], "ttc")
@@ -100,7 +95,7 @@ class Traces(unittest.TestCase):
         self.assertEqual(len(self.trace.events().to_pandas()), self.trace.events().rows)
 
     def test_damaged_files(self):
-        folder = pathlib.Path(self.temporary.name)
+        folder = self.path.parent
         data = self.path.read_bytes()
         with h5py.File(folder / "other.h5", "w") as file:
             file.attrs["format"] = "else"

@@ -2,38 +2,22 @@
 // usage: node access_test.mjs PROGRAM PACKAGES
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
-import { after, before, test as nodeTest } from "node:test";
-import { openPage, screenChecker, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { after } from "node:test";
+import { openStudio } from "./page.mjs";
 
-const [program, packages] = process.argv.slice(2);
-const test = stepsOf(nodeTest);
-const check = screenChecker(packages);
-const complaints = [];
 const received = [];
-const service = new TestService(program, ["--webhook-private"]);
+const { service, page, go, complaints, test, check } = await openStudio(["--webhook-private"]);
 const receiver = createServer((request, response) => {
   received.push(request.headers);
   response.writeHead(204).end();
 });
-let browser;
-let page;
 
-before(async () => {
-  await service.start();
-  await new Promise((resolve) => receiver.listen(0, "127.0.0.1", resolve));
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-});
-
-after(async () => {
-  await browser?.close();
+await new Promise((resolve) => receiver.listen(0, "127.0.0.1", resolve));
+after(() => {
   receiver.closeAllConnections();
   receiver.close();
-  await service.stop();
 });
 
-const go = (address) => page.goto(service.address + address);
 const statusOf = async (key) => (await fetch(`${service.address}/v1/jobs`, { headers: { Authorization: `Bearer ${key}` } })).status;
 
 test("operations of the API are searched, shown and sent", async () => {

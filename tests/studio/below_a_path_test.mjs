@@ -6,12 +6,10 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import path from "node:path";
-import { after, before, test as nodeTest } from "node:test";
+import { after } from "node:test";
 import { fileURLToPath } from "node:url";
-import { eventually, openPage, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { eventually, openStudio } from "./page.mjs";
 
-const [program, packages] = process.argv.slice(2);
 const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../..");
 const kJob = {
   name: "below a path",
@@ -21,15 +19,10 @@ const kJob = {
   outputs: { annotations: ["coco"], previews: 1 },
 };
 
-const test = stepsOf(nodeTest);
-const complaints = [];
-const service = new TestService(program);
+const { program, service, page, complaints, test } = await openStudio();
 const folder = mkdtempSync(path.join(tmpdir(), "throng-path-"));
 let nginx;
 let site;
-let browser;
-let page;
-let job;
 
 function freePort() {
   return new Promise((resolve) => {
@@ -64,20 +57,12 @@ async function startProxy() {
   );
 }
 
-before(async () => {
-  await service.start();
-  await startProxy();
-  job = await service.finished(kJob);
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-});
-
-after(async () => {
-  await browser?.close();
+after(() => {
   nginx?.kill();
-  await service.stop();
   rmSync(folder, { recursive: true, force: true });
 });
+await startProxy();
+const job = await service.finished(kJob);
 
 const heading = (name) => page.getByRole("heading", { name }).first().waitFor();
 

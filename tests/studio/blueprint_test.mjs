@@ -2,29 +2,10 @@
 // usage: node blueprint_test.mjs PROGRAM PACKAGES
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test as nodeTest } from "node:test";
-import { openPage, screenChecker, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { jsonFile, openStudio } from "./page.mjs";
 
-const [program, packages] = process.argv.slice(2);
-const test = stepsOf(nodeTest);
-const check = screenChecker(packages);
-const complaints = [];
-const service = new TestService(program);
+const { service, page, complaints, test, check } = await openStudio();
 const kLongMs = 60_000; // a busy machine
-let browser;
-let page;
-
-before(async () => {
-  await service.start();
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-});
-
-after(async () => {
-  await browser?.close();
-  await service.stop();
-});
 
 const blueprint = () => page.evaluate(() => JSON.parse(sessionStorage.getItem("throng.blueprint")));
 const tool = (name) =>
@@ -173,7 +154,7 @@ test("the draft survives a reload, a file brings it back", async () => {
   const open = page.getByLabel("Open a file");
   await open.setInputFiles({ name: "bad.json", mimeType: "application/json", buffer: Buffer.from("[1]") });
   await page.getByRole("alert").getByText("bad.json cannot be opened").waitFor();
-  await open.setInputFiles({ name: "my.blueprint.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(corrected)) });
+  await open.setInputFiles(jsonFile("my.blueprint.json", corrected));
   await checked(/Nothing found|warning/);
 });
 

@@ -5,42 +5,23 @@ import { spawnSync } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
-import { after, before, test as nodeTest } from "node:test";
-import { openPage, screenChecker, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { after } from "node:test";
+import { jsonFile, openStudio } from "./page.mjs";
 
-const [program, packages] = process.argv.slice(2);
-const test = stepsOf(nodeTest);
-const check = screenChecker(packages);
-const complaints = [];
-const service = new TestService(program);
+const { program, service, page, go, complaints, test, check } = await openStudio();
 const boards = mkdtempSync(path.join(tmpdir(), "throng-boards-"));
 const kCorners = 108; // 12 × 9, of the board that throng calibrate selftest renders
 const kTrueFx = 900;
 const kLongMs = 120_000; // a busy machine
-let files;
-let browser;
-let page;
 
-before(async () => {
-  // With few views its own limits may not hold; the images are there all the same.
-  spawnSync(program, ["calibrate", "selftest", "--views", "10", "--images", boards], { stdio: "ignore" });
-  files = readdirSync(boards)
-    .sort()
-    .map((name) => path.join(boards, name));
-  assert.equal(files.length, 10);
-  await service.start();
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-});
+after(() => rmSync(boards, { recursive: true }));
+// With few views its own limits may not hold; the images are there all the same.
+spawnSync(program, ["calibrate", "selftest", "--views", "10", "--images", boards], { stdio: "ignore" });
+const files = readdirSync(boards)
+  .sort()
+  .map((name) => path.join(boards, name));
+assert.equal(files.length, 10);
 
-after(async () => {
-  await browser?.close();
-  await service.stop();
-  rmSync(boards, { recursive: true });
-});
-
-const go = (address) => page.goto(service.address + address);
 const chooser = () => page.locator('input[type="file"]');
 
 /** Drops a file on the page as a hand does. */
@@ -210,28 +191,18 @@ test("control points give the poses of a camera", async () => {
     mimeType: "text/csv",
     buffer: Buffer.from(`${header}\n${rows.map((row) => row.join()).join("\n")}\n`),
   });
-  await go("/calibrations?form=poses");
   const form = page.getByRole("form", { name: "New poses" });
   const inputs = form.locator('input[type="file"]');
-  await inputs.nth(0).setInputFiles(
-    table(
-      "gcp.csv",
-      "point,X,Y,Z",
-      points.map((point, index) => [`p${index}`, ...point]),
-    ),
-  );
-  await inputs.nth(1).setInputFiles(
-    table(
-      "seen.csv",
-      "image,point,u",
-      pixels.map(([u, _v], index) => ["a.jpg", `p${index}`, u]),
-    ),
-  );
-  await inputs.nth(2).setInputFiles({
-    name: "camera.json",
-    mimeType: "application/json",
-    buffer: Buffer.from(JSON.stringify({ width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 })),
-  });
+  const choose = async (header, seen) => {
+    await go("/calibrations?form=poses");
+    const ground = points.map((point, index) => [`p${index}`, ...point]);
+    const rows = pixels.map((pixel, index) => ["a.jpg", `p${index}`, ...seen(pixel)]);
+    const camera = { width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 };
+    await inputs.nth(0).setInputFiles(table("gcp.csv", "point,X,Y,Z", ground));
+    await inputs.nth(1).setInputFiles(table("seen.csv", header, rows));
+    await inputs.nth(2).setInputFiles(jsonFile("camera.json", camera));
+  };
+  await choose("image,point,u", ([u]) => [u]);
   await page.getByRole("button", { name: "Estimate poses" }).click();
   await page
     .getByRole("alert")
@@ -243,26 +214,7 @@ test("control points give the poses of a camera", async () => {
     .first()
     .waitFor();
   await service.remove(new URL(page.url()).pathname.replace("/calibrations", "/v1/calibrations"));
-  await go("/calibrations?form=poses");
-  await inputs.nth(0).setInputFiles(
-    table(
-      "gcp.csv",
-      "point,X,Y,Z",
-      points.map((point, index) => [`p${index}`, ...point]),
-    ),
-  );
-  await inputs.nth(1).setInputFiles(
-    table(
-      "seen.csv",
-      "image,point,u,v",
-      pixels.map((pixel, index) => ["a.jpg", `p${index}`, ...pixel]),
-    ),
-  );
-  await inputs.nth(2).setInputFiles({
-    name: "camera.json",
-    mimeType: "application/json",
-    buffer: Buffer.from(JSON.stringify({ width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 })),
-  });
+  await choose("image,point,u,v", (pixel) => pixel);
   await check(page, "control points");
   await page.getByRole("button", { name: "Estimate poses" }).click();
   await page.waitForURL(/\/calibrations\/[a-z0-9]+$/);

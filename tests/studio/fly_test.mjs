@@ -3,11 +3,9 @@
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
-import { after, before, test as nodeTest } from "node:test";
-import { eventually, openPage, screenChecker, stepsOf } from "./page.mjs";
-import { attacked, launch, TestService } from "./service.mjs";
+import { eventually, jsonFile, openStudio } from "./page.mjs";
+import { attacked } from "./service.mjs";
 
-const [program, packages] = process.argv.slice(2);
 const kStartMs = 60_000; // a busy machine
 const kJobMs = 120_000;
 const kJob = {
@@ -23,29 +21,13 @@ const kJob = {
   outputs: { annotations: ["coco"], previews: 1 },
 };
 
-const test = stepsOf(nodeTest);
-const check = screenChecker(packages);
-const complaints = [];
-const service = new TestService(program);
-let browser;
-let page;
+const { service, browser, page, go, complaints, test, check } = await openStudio();
 
-before(async () => {
-  await service.start();
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-  await page.addInitScript(() => {
-    window.pad = null;
-    navigator.getGamepads = () => [window.pad];
-  });
+await page.addInitScript(() => {
+  window.pad = null;
+  navigator.getGamepads = () => [window.pad];
 });
 
-after(async () => {
-  await browser?.close();
-  await service.stop();
-});
-
-const go = (address) => page.goto(service.address + address);
 const figure = (name) =>
   page
     .locator(".figures div", { has: page.locator("dt", { hasText: new RegExp(`^${name}$`) }) })
@@ -74,9 +56,7 @@ const sticks = (axes, buttons = []) =>
 
 async function start() {
   await go("/new");
-  await page
-    .getByLabel("Open a file")
-    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob)) });
+  await page.getByLabel("Open a file").setInputFiles(jsonFile("job.json", kJob));
   await page.getByText("2 images").waitFor();
   await page.getByRole("link", { name: "Fly", exact: true }).click();
   await page.getByRole("heading", { name: "Live flight" }).waitFor();
@@ -88,9 +68,7 @@ async function start() {
 
 test("a mistake in the job is shown before the flight", async () => {
   await go("/new");
-  await page
-    .getByLabel("Open a file")
-    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ ...kJob, runs: 0 })) });
+  await page.getByLabel("Open a file").setInputFiles(jsonFile("job.json", { ...kJob, runs: 0 }));
   await page.getByText("1 error").waitFor();
   await page.getByRole("link", { name: "Fly", exact: true }).click();
   await check(page, "the start of a flight");

@@ -1,46 +1,27 @@
 // Parts of Studio without a browser: annotations by ranges of a large file, masks, values of the form, camera footprints.
 // usage: node modules_test.mjs PACKAGES
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import { importStudio } from "./bundle.mjs";
 import { pixelsOf } from "./masks.mjs";
 
 const [packages] = process.argv.slice(2);
-let coco;
-let rle;
-let json;
-let schema;
-let footprint;
-let exits;
-let events;
-let statistics;
-let differences;
-let elements;
-let kinds;
-let camera;
-let names;
-let running;
-let subjects;
-let scale;
-
-before(async () => {
-  coco = await importStudio(packages, "dataset/coco.ts");
-  rle = await importStudio(packages, "dataset/rle.ts");
-  json = await importStudio(packages, "form/json.ts");
-  schema = await importStudio(packages, "form/schema.ts");
-  statistics = await importStudio(packages, "compare/statistics.ts");
-  ({ differencesOf: differences } = await importStudio(packages, "compare/differences.ts"));
-  events = await importStudio(packages, "run/events.ts");
-  exits = await importStudio(packages, "run/exit_states.ts");
-  elements = await importStudio(packages, "blueprint/elements.ts");
-  kinds = await importStudio(packages, "blueprint/kinds.ts");
-  camera = await importStudio(packages, "calibration/camera.ts");
-  names = await importStudio(packages, "blueprint/names.ts");
-  scale = await importStudio(packages, "charts/scale.ts");
-  running = await importStudio(packages, "study/running.ts");
-  subjects = await importStudio(packages, "compare/subjects.ts");
-  ({ footprint } = await importStudio(packages, "form/footprint.ts"));
-});
+const coco = await importStudio(packages, "dataset/coco.ts");
+const rle = await importStudio(packages, "dataset/rle.ts");
+const json = await importStudio(packages, "form/json.ts");
+const schema = await importStudio(packages, "form/schema.ts");
+const statistics = await importStudio(packages, "compare/statistics.ts");
+const { differencesOf: differences } = await importStudio(packages, "compare/differences.ts");
+const events = await importStudio(packages, "run/events.ts");
+const exits = await importStudio(packages, "run/exit_states.ts");
+const elements = await importStudio(packages, "blueprint/elements.ts");
+const kinds = await importStudio(packages, "blueprint/kinds.ts");
+const camera = await importStudio(packages, "calibration/camera.ts");
+const names = await importStudio(packages, "blueprint/names.ts");
+const scale = await importStudio(packages, "charts/scale.ts");
+const running = await importStudio(packages, "study/running.ts");
+const subjects = await importStudio(packages, "compare/subjects.ts");
+const { footprint } = await importStudio(packages, "form/footprint.ts");
 
 /** Numbers that look random and are the same in each run. */
 function sequence(seed) {

@@ -1,13 +1,14 @@
 // Pages of Studio under test: what all tests in a browser check alike.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { packageFile } from "./service.mjs";
+import { after, test as nodeTest } from "node:test";
+import { launch, packageFile, TestService } from "./service.mjs";
 
 const kWidths = [360, 768, 1440];
 const kWaitMs = 60_000; // a busy machine
 
 /** A page that notes what it complains of. Refused requests are expected answers; anything else on the console is a fault. */
-export async function openPage(browser, complaints) {
+async function openPage(browser, complaints) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
   const page = await context.newPage();
   page.setDefaultTimeout(kWaitMs);
@@ -29,7 +30,7 @@ export async function eventually(what, condition) {
 }
 
 /** Each step begins where the last one ended: after a failure the rest is left out. */
-export function stepsOf(nodeTest) {
+function stepsOf(nodeTest) {
   let isBroken = false;
   return (name, step) =>
     nodeTest(name, async (context) => {
@@ -62,7 +63,7 @@ async function checkWidths(page, name) {
 }
 
 /** Checks the screen that a page shows, in light and dark and at several widths. */
-export function screenChecker(packages) {
+function screenChecker(packages) {
   return async (page, name) => {
     for (const colorScheme of ["light", "dark"]) {
       await page.emulateMedia({ colorScheme });
@@ -71,4 +72,25 @@ export function screenChecker(packages) {
     await page.emulateMedia({ colorScheme: "light" });
     await checkWidths(page, name);
   };
+}
+
+/** A file to choose in the page, whose content is JSON. */
+export const jsonFile = (name, value) => ({ name, mimeType: "application/json", buffer: Buffer.from(JSON.stringify(value, null, 2)) });
+
+/** Beginning of each test in a browser: a service and a page of it, which end with the tests. Arguments: PROGRAM PACKAGES. */
+export async function openStudio(options = [], environment = {}) {
+  const [program, packages] = process.argv.slice(2);
+  const service = new TestService(program, options, environment);
+  const complaints = [];
+  let browser;
+  process.on("exit", () => service.child?.kill()); // whatever fails before the first test
+  after(async () => {
+    await browser?.close();
+    await service.stop();
+  });
+  await service.start();
+  browser = await launch(packages);
+  const page = await openPage(browser, complaints);
+  const go = (address) => page.goto(service.address + address);
+  return { program, packages, service, browser, page, go, complaints, test: stepsOf(nodeTest), check: screenChecker(packages) };
 }

@@ -1,11 +1,8 @@
 // Lost connections and restarts of the service in a browser: screens say so, go on by themselves and keep what was typed.
 // usage: node restart_test.mjs PROGRAM PACKAGES
 import assert from "node:assert/strict";
-import { after, before, test as nodeTest } from "node:test";
-import { openPage, screenChecker, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { jsonFile, openStudio } from "./page.mjs";
 
-const [program, packages] = process.argv.slice(2);
 const kJobMs = 120_000; // a busy machine
 const kJob = {
   name: "restart",
@@ -16,29 +13,11 @@ const kJob = {
   outputs: { annotations: ["coco"], previews: 1 },
 };
 
-const test = stepsOf(nodeTest);
-const check = screenChecker(packages);
-const complaints = [];
 // The third run of a job rests until the service is restarted in its midst.
-const service = new TestService(program, [], { THRONG_FAULTS: "slow:run002/trace:3600" });
-let browser;
-let page;
+const { service, page, go, complaints, test, check } = await openStudio([], { THRONG_FAULTS: "slow:run002/trace:3600" });
 
-before(async () => {
-  await service.start();
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-});
-
-after(async () => {
-  await browser?.close();
-  await service.stop();
-});
-
-const go = (address) => page.goto(service.address + address);
 const lost = () => page.getByRole("status").filter({ hasText: "The service cannot be reached" });
-const post = (job) =>
-  service.json("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(job) });
+const post = (job) => service.post("/v1/jobs", job);
 async function restart() {
   await service.start();
   await lost().waitFor({ state: "hidden" });
@@ -60,9 +39,7 @@ test("a list says that the connection is lost, and is live again", async () => {
 
 test("the form of a job keeps what is typed while the service is away", async () => {
   await go("/new");
-  await page
-    .getByLabel("Open a file")
-    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob)) });
+  await page.getByLabel("Open a file").setInputFiles(jsonFile("job.json", kJob));
   await page.getByText("2 images").waitFor();
   await service.halt();
   await page.getByLabel("Name", { exact: true }).fill("typed meanwhile");

@@ -2,13 +2,10 @@
 // usage: node results_test.mjs PROGRAM PACKAGES
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test as nodeTest } from "node:test";
 import { inflateRawSync } from "node:zlib";
 import { importStudio } from "./bundle.mjs";
-import { openPage, screenChecker, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { openStudio } from "./page.mjs";
 
-const [program, packages] = process.argv.slice(2);
 const kJob = {
   name: "all layers",
   scenario: "city_square/emergency",
@@ -28,29 +25,11 @@ const kJob = {
 };
 const kImage = "images/run000/d2/000001.jpg";
 
-const test = stepsOf(nodeTest);
-const check = screenChecker(packages);
-const complaints = [];
-const service = new TestService(program);
-let browser;
-let page;
-let job;
-let coco;
+const { packages, service, page, go, complaints, test, check } = await openStudio();
 
-before(async () => {
-  await service.start();
-  job = await service.finished(kJob);
-  coco = await service.json(`/v1/jobs/${job}/files/annotations/instances.json`);
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-});
+const job = await service.finished(kJob);
+const coco = await service.json(`/v1/jobs/${job}/files/annotations/instances.json`);
 
-after(async () => {
-  await browser?.close();
-  await service.stop();
-});
-
-const go = (address) => page.goto(service.address + address);
 const peopleOf = (name) => {
   const image = coco.images.find((entry) => entry.file_name === name);
   return { image, people: coco.annotations.filter((entry) => entry.image_id === image.id) };

@@ -51,17 +51,7 @@ async function studied() {
     cases: whole.cases.slice(-2).map((one) => ({ ...one, duration_s: 300 })),
     policies: whole.policies.slice(0, 4),
   };
-  const { id } = await service.json("/v1/studies", {
-    method: "POST",
-    headers: { "Content-Type": "application/json" },
-    body: JSON.stringify(study),
-  });
-  for (;;) {
-    const { state, error } = await service.json(`/v1/studies/${id}`);
-    if (state === "succeeded") return id;
-    if (state === "failed") throw new Error(`the study failed: ${error.message}`);
-    await new Promise((resolve) => setTimeout(resolve, 500));
-  }
+  return service.finished(study, "studies");
 }
 
 /** The id of a live flight. */
@@ -74,11 +64,7 @@ async function begunFlight() {
     ],
     capture: { from_s: 1, to_s: 2 },
   };
-  const { id } = await service.json("/v1/live", {
-    method: "POST",
-    headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ job }),
-  });
+  const { id } = await service.post("/v1/live", { job });
   return id;
 }
 

@@ -76,17 +76,17 @@ export class TestService {
     return response.json();
   }
 
-  /** The id of a job that has succeeded. */
-  async finished(job) {
-    const { id } = await this.json("/v1/jobs", {
-      method: "POST",
-      headers: { "Content-Type": "application/json" },
-      body: JSON.stringify(job),
-    });
+  post(address, body) {
+    return this.json(address, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
+  }
+
+  /** The id of a job, or of a study, that has succeeded. */
+  async finished(document, kind = "jobs") {
+    const { id } = await this.post(`/v1/${kind}`, document);
     for (;;) {
-      const { state, error } = await this.json(`/v1/jobs/${id}`);
+      const { state, error } = await this.json(`/v1/${kind}/${id}`);
       if (state === "succeeded") return id;
-      if (state !== "queued" && state !== "running") throw new Error(`the job is ${state}: ${error?.message}`);
+      if (state !== "queued" && state !== "running") throw new Error(`${kind}/${id} is ${state}: ${error?.message}`);
       await new Promise((resolve) => setTimeout(resolve, 500));
     }
   }

@@ -2,12 +2,10 @@
 // usage: node studio_test.mjs PROGRAM PACKAGES
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test as nodeTest } from "node:test";
 import { pixelsOf } from "./masks.mjs";
-import { eventually, openPage, screenChecker, stepsOf } from "./page.mjs";
-import { kOtherHost, launch, OtherSite, TestService } from "./service.mjs";
+import { eventually, jsonFile, openStudio } from "./page.mjs";
+import { kOtherHost, OtherSite } from "./service.mjs";
 
-const [program, packages] = process.argv.slice(2);
 const kJobMs = 120_000; // a busy machine
 const kJob = {
   name: "studio test",
@@ -21,27 +19,8 @@ const kJob = {
   outputs: { annotations: ["coco", "keypoints", "exits"], previews: 1 },
 };
 
-const service = new TestService(program);
-let browser;
-let page;
-const complaints = [];
+const { service, browser, page, go, complaints, test, check } = await openStudio();
 let job; // the id of the job that the form submits
-
-const test = stepsOf(nodeTest);
-
-before(async () => {
-  await service.start();
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-});
-
-after(async () => {
-  await browser?.close();
-  await service.stop();
-});
-
-const check = screenChecker(packages);
-const go = (address) => page.goto(service.address + address);
 
 async function type(label, text) {
   await page.getByLabel(label, { exact: true }).fill(text);
@@ -62,9 +41,7 @@ test("the empty home leads to the form", async () => {
 });
 
 test("a mistake is shown at its field and at its line", async () => {
-  await page
-    .getByLabel("Open a file")
-    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob, null, 2)) });
+  await page.getByLabel("Open a file").setInputFiles(jsonFile("job.json", kJob));
   await page.getByText("4 images").waitFor();
   await type("Runs", "none");
   const field = page.locator("#field-runs");
@@ -205,11 +182,7 @@ test("a run is shown over time", async () => {
 
 test("jobs are compared", async () => {
   const changed = { ...kJob, name: "studio test, more people", seed: 5, crowd: { agents: 200 } };
-  const other = await service.json("/v1/jobs", {
-    method: "POST",
-    headers: { "Content-Type": "application/json" },
-    body: JSON.stringify(changed),
-  });
+  const other = await service.post("/v1/jobs", changed);
   await go("/jobs");
   await page.locator("tbody tr", { hasText: changed.name }).getByText("succeeded").waitFor({ timeout: kJobMs });
   await page.getByLabel("Select all jobs of this page").check();

@@ -1,15 +1,10 @@
 // Studies in a browser, against a real service: from a preset with a mistake to intervals and convergence.
 // usage: node study_test.mjs PROGRAM PACKAGES
 import assert from "node:assert/strict";
-import { after, before, test as nodeTest } from "node:test";
-import { eventually, openPage, screenChecker, stepsOf } from "./page.mjs";
-import { attacked, launch, TestService } from "./service.mjs";
+import { eventually, jsonFile, openStudio } from "./page.mjs";
+import { attacked } from "./service.mjs";
 
-const [program, packages] = process.argv.slice(2);
-const test = stepsOf(nodeTest);
-const check = screenChecker(packages);
-const complaints = [];
-const service = new TestService(program);
+const { service, browser, page, go, complaints, test, check } = await openStudio();
 const kRuns = 4;
 const kStudy = {
   name: "studio test",
@@ -30,26 +25,9 @@ const kStudy = {
     { id: "one", title: "one drone", drones: [{ id: "d1", start: [0, 0, 20], moves_goal: [99, 0], guidance: { policy: "balance" } }] },
   ],
 };
-let browser;
-let page;
 let address;
 
-before(async () => {
-  await service.start();
-  browser = await launch(packages);
-  page = await openPage(browser, complaints);
-});
-
-after(async () => {
-  await browser?.close();
-  await service.stop();
-});
-
-const go = (path) => page.goto(service.address + path);
-const openFile = (study) =>
-  page
-    .locator('input[type="file"]')
-    .setInputFiles({ name: "study.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(study)) });
+const openFile = (study) => page.locator('input[type="file"]').setInputFiles(jsonFile("study.json", study));
 const start = () => page.getByRole("button", { name: "Start the study" });
 const idOf = (url) => new URL(url).pathname.split("/").at(-1);
 

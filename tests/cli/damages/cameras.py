@@ -3,23 +3,20 @@ import json
 
 import numpy
 
-from .dataset import damage
+from .dataset import damage, damage_by, damage_of_labels, each_image
 
 
-@damage
-def flight_moved_by_5_m(d):
-    for image in d.images:
-        image["flight"]["true"]["position"][0] += 5
-    d.save_coco()
+@damage_by(each_image)
+def flight_moved_by_5_m(image):
+    image["flight"]["true"]["position"][0] += 5
 
 
-@damage
+@damage_of_labels
 def flight_of_one_picture_moved_by_20_cm(d):
     d.image()["flight"]["true"]["position"][1] += 0.2
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def camera_and_flight_moved_by_5_m(d):
     """The camera's pose, the flight's truth and the sensors' tables."""
     for image in d.images:
@@ -35,73 +32,57 @@ def camera_and_flight_moved_by_5_m(d):
             for column in ("true_x_m", "gps_x_m"):
                 row[head.index(column)] = repr(float(row[head.index(column)]) + 5)
         d.save_table(name, head, rows)
-    d.save_coco()
 
 
-@damage
-def camera_turned_by_half_a_degree(d):
-    for image in d.images:
-        camera = image["camera"]
-        c, s = numpy.cos(numpy.radians(0.5)), numpy.sin(numpy.radians(0.5))
-        turn = numpy.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
-        camera["R"] = (turn @ camera["R"]).tolist()
-        camera["t"] = (-numpy.array(camera["R"]) @ camera["centre"]).tolist()
-    d.save_coco()
+@damage_by(each_image)
+def camera_turned_by_half_a_degree(image):
+    camera = image["camera"]
+    c, s = numpy.cos(numpy.radians(0.5)), numpy.sin(numpy.radians(0.5))
+    turn = numpy.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+    camera["R"] = (turn @ camera["R"]).tolist()
+    camera["t"] = (-numpy.array(camera["R"]) @ camera["centre"]).tolist()
 
 
-@damage
+@damage_of_labels
 def camera_of_the_frame_before(d):
     d.image(-1, 3)["camera"] = d.image(-1, 2)["camera"]
-    d.save_coco()
 
 
-@damage
-def focal_length_1_percent_more(d):
-    for image in d.images:
-        image["camera"]["K"][0][0] *= 1.01
-        image["camera"]["K"][1][1] *= 1.01
-    d.save_coco()
+@damage_by(each_image)
+def focal_length_1_percent_more(image):
+    image["camera"]["K"][0][0] *= 1.01
+    image["camera"]["K"][1][1] *= 1.01
 
 
-@damage
-def flight_velocity_axes_exchanged(d):
-    for image in d.images:
-        v = image["flight"]["true"]["velocity"]
-        v[0], v[1] = v[1], v[0]
-    d.save_coco()
+@damage_by(each_image)
+def flight_velocity_axes_exchanged(image):
+    v = image["flight"]["true"]["velocity"]
+    v[0], v[1] = v[1], v[0]
 
 
-@damage
-def flight_orientation_inverted(d):
-    for image in d.images:
-        q = image["flight"]["true"]["orientation_wxyz"]
-        q[1:] = [-v for v in q[1:]]
-    d.save_coco()
+@damage_by(each_image)
+def flight_orientation_inverted(image):
+    q = image["flight"]["true"]["orientation_wxyz"]
+    q[1:] = [-v for v in q[1:]]
 
 
-@damage
-def gimbal_yaw_with_the_other_sign(d):
-    for image in d.images:
-        image["flight"]["true"]["gimbal"]["yaw_deg"] *= -1
-    d.save_coco()
+@damage_by(each_image)
+def gimbal_yaw_with_the_other_sign(image):
+    image["flight"]["true"]["gimbal"]["yaw_deg"] *= -1
 
 
-@damage
-def gimbal_in_radians(d):
-    for image in d.images:
-        for name in ("true", "measured"):
-            gimbal = image["flight"][name]["gimbal"]
-            for key in gimbal:
-                gimbal[key] = float(numpy.radians(gimbal[key]))
-    d.save_coco()
+@damage_by(each_image)
+def gimbal_in_radians(image):
+    for name in ("true", "measured"):
+        gimbal = image["flight"][name]["gimbal"]
+        for key in gimbal:
+            gimbal[key] = float(numpy.radians(gimbal[key]))
 
 
-@damage
-def gyro_and_accelerometer_of_pictures_exchanged(d):
-    for image in d.images:
-        m = image["flight"]["measured"]
-        m["gyro"], m["accelerometer"] = m["accelerometer"], m["gyro"]
-    d.save_coco()
+@damage_by(each_image)
+def gyro_and_accelerometer_of_pictures_exchanged(image):
+    m = image["flight"]["measured"]
+    m["gyro"], m["accelerometer"] = m["accelerometer"], m["gyro"]
 
 
 def sensor_tables(d):
@@ -115,21 +96,6 @@ def exchange_columns(d, a, b, names=None):
         for row in rows:
             row[i], row[j] = row[j], row[i]
         d.save_table(name, head, rows)
-
-
-@damage
-def sensor_columns_vx_and_vy_exchanged(d):
-    exchange_columns(d, "true_vx_mps", "true_vy_mps", sensor_tables(d)[-1:])
-
-
-@damage
-def sensor_columns_gyro_y_and_z_exchanged(d):
-    exchange_columns(d, "gyro_y_rad_s", "gyro_z_rad_s")
-
-
-@damage
-def sensor_columns_gps_and_truth_exchanged(d):
-    exchange_columns(d, "true_y_m", "gps_y_m")
 
 
 @damage
@@ -178,18 +144,25 @@ def one_row_of_sensors_spoilt(d):
     d.save_table(name, head, rows)
 
 
-@damage
+@damage_of_labels
 def sun_on_the_other_side(d):
     manifest = json.loads(d.path("manifest.json").read_text())
     for record in [*d.images, *manifest["runs"]]:
         record["environment"]["sun_azimuth_deg"] += 90
     d.write("manifest.json", json.dumps(manifest, indent=1))
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def weather_of_one_run(d):
     for image in d.images:
         if image["run"] == d.runs[1]:
             image["environment"]["weather"] = "rain"
-    d.save_coco()
+
+
+DAMAGES = {
+    "sensor columns vx and vy exchanged": lambda d: exchange_columns(
+        d, "true_vx_mps", "true_vy_mps", sensor_tables(d)[-1:]
+    ),
+    "sensor columns gyro y and z exchanged": lambda d: exchange_columns(d, "gyro_y_rad_s", "gyro_z_rad_s"),
+    "sensor columns gps and truth exchanged": lambda d: exchange_columns(d, "true_y_m", "gps_y_m"),
+}

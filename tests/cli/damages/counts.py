@@ -3,7 +3,7 @@ import json
 
 import numpy
 
-from .dataset import damage
+from .dataset import damage, damage_by, damage_of_labels
 from .rasters import change_npy
 
 
@@ -15,35 +15,23 @@ def changed(d, change, run=0):
     d.save_table(name, head, rows)
 
 
-@damage
+@damage_of_labels
 def count_of_visible_people_one_more(d):
     d.image()["zones"][-1]["visible"] += 1
-    d.save_coco()
 
 
-@damage
-def counts_of_the_other_run(d):
-    d.exchange(f"counts/{d.runs[0]}.csv", f"counts/{d.runs[1]}.csv")
+@damage_by(changed)
+def people_inside_one_more(rows):
+    row = next(row for row in rows if row[0] == "2" and row[3] == "yard")
+    row[4] = str(int(row[4]) + 1)
 
 
-@damage
-def people_inside_one_more(d):
-    def change(rows):
-        row = next(row for row in rows if row[0] == "2" and row[3] == "yard")
-        row[4] = str(int(row[4]) + 1)
-
-    changed(d, change)
-
-
-@damage
-def somebody_enters_who_was_inside(d):
-    def change(rows):
-        first = next(row for row in rows if row[0] == "0" and row[3] == "yard")
-        row = next(row for row in rows if row[0] == "2" and row[3] == "yard")
-        row[7] = " ".join([*row[7].split(), first[7].split()[0]])
-        row[5], row[4] = str(int(row[5]) + 1), str(int(row[4]) + 1)
-
-    changed(d, change)
+@damage_by(changed)
+def somebody_enters_who_was_inside(rows):
+    first = next(row for row in rows if row[0] == "0" and row[3] == "yard")
+    row = next(row for row in rows if row[0] == "2" and row[3] == "yard")
+    row[7] = " ".join([*row[7].split(), first[7].split()[0]])
+    row[5], row[4] = str(int(row[5]) + 1), str(int(row[4]) + 1)
 
 
 @damage
@@ -64,11 +52,12 @@ def lines_in_the_other_direction(d):
         d.write(name, json.dumps(areas) + "\n")
 
 
-@damage
-def coarse_field_mirrored(d):
-    change_npy(d, f"fields/{d.runs[0]}/cell_2/000001.npy", lambda a: numpy.ascontiguousarray(a[:, :, ::-1]))
-
-
-@damage
-def coarse_fields_10_percent_more(d):
-    change_npy(d, f"fields/{d.runs[0]}/cell_2/000001.npy", lambda a: a * numpy.float32(1.1))
+DAMAGES = {
+    "counts of the other run": lambda d: d.exchange(f"counts/{d.runs[0]}.csv", f"counts/{d.runs[1]}.csv"),
+    "coarse field mirrored": lambda d: change_npy(
+        d, f"fields/{d.runs[0]}/cell_2/000001.npy", lambda a: numpy.ascontiguousarray(a[:, :, ::-1])
+    ),
+    "coarse fields 10 percent more": lambda d: change_npy(
+        d, f"fields/{d.runs[0]}/cell_2/000001.npy", lambda a: a * numpy.float32(1.1)
+    ),
+}

@@ -1,5 +1,6 @@
 """A dataset that is damaged: a copy whose files are replaced and whose manifest is put right."""
 import csv
+import functools
 import hashlib
 import io
 import json
@@ -14,9 +15,32 @@ from .rasters import png_bytes, raster_name, read_png
 
 
 def damage(function):
-    """Marks what the table in __init__.py must list."""
+    """Marks a damage, which is named as its function, with blanks for underscores."""
     function.is_damage = True
     return function
+
+
+def damage_by(change, **options):
+    """Marks a damage that `change(dataset, function, **options)` does by the function."""
+    return lambda function: damage(functools.wraps(function)(lambda d: change(d, function, **options)))
+
+
+def each(records):
+    """For damage_by: the function changes each of the records of the labels, which are written then."""
+
+    def change(d, function):
+        for record in records(d):
+            function(record)
+        d.save_coco()
+
+    return change
+
+
+damage_of_labels = damage_by(each(lambda d: [d]))
+each_person = each(lambda d: d.everybody)
+each_person_of_an_image = each(lambda d: d.people(d.image()))
+each_image = each(lambda d: d.images)
+each_track = each(lambda d: d.coco["tracks"])
 
 
 class Dataset:

@@ -16,11 +16,6 @@ def edit_line(d, pattern, change):
 
 
 @damage
-def formats_mot_ids_exchanged(d):
-    edit_line(d, "formats/mot/*/*/gt/gt.txt", lambda line: ",".join([line.split(",")[0], "77", *line.split(",")[2:]]))
-
-
-@damage
 def formats_yolo_box_moved(d):
     def move(line):
         parts = line.split(" ")
@@ -64,43 +59,34 @@ def with_column(line, separator, column, change):
 
 
 @damage
-def formats_yolo_class_one_more(d):
-    change_lines(
-        d, "formats/yolo-detect/labels/*/*.txt", lambda line: with_column(line, " ", 0, lambda v: str(int(v) + 1))
-    )
-
-
-@damage
-def formats_visdrone_category_pedestrians_called_people(d):
-    change_lines(
-        d,
-        "formats/visdrone-mot/**/annotations/*.txt",
-        lambda line: with_column(line, ",", 7, lambda v: {"1": "2", "2": "1"}.get(v, v)),
-    )
-
-
-@damage
-def formats_visdrone_occlusion_inverted(d):
-    change_lines(
-        d,
-        "formats/visdrone-mot/**/annotations/*.txt",
-        lambda line: with_column(line, ",", 9, lambda v: {"0": "2", "2": "0"}.get(v, v)),
-    )
-
-
-@damage
-def formats_mot_boxes_2_px_off(d):
-    change_lines(d, "formats/mot/*/*/gt/gt.txt", lambda line: with_column(line, ",", 2, lambda v: f"{float(v) + 2:g}"))
-
-
-@damage
-def formats_mot_frames_from_zero(d):
-    change_lines(d, "formats/mot/*/*/gt/gt.txt", lambda line: with_column(line, ",", 0, lambda v: str(int(v) - 1)))
-
-
-@damage
 def formats_coco_box_moved(d):
     name = first(d, "formats/coco/annotations/*.json")
     text = d.path(name).read_text()
     at = text.index('"bbox":[') + len('"bbox":[')
     d.write(name, text[:at] + "1" + text[at:])
+
+
+DAMAGES = {
+    "formats mot ids exchanged": lambda d: edit_line(
+        d, "formats/mot/*/*/gt/gt.txt", lambda line: ",".join([line.split(",")[0], "77", *line.split(",")[2:]])
+    ),
+    "formats yolo class one more": lambda d: change_lines(
+        d, "formats/yolo-detect/labels/*/*.txt", lambda line: with_column(line, " ", 0, lambda v: str(int(v) + 1))
+    ),
+    "formats visdrone category pedestrians called people": lambda d: change_lines(
+        d,
+        "formats/visdrone-mot/**/annotations/*.txt",
+        lambda line: with_column(line, ",", 7, lambda v: {"1": "2", "2": "1"}.get(v, v)),
+    ),
+    "formats visdrone occlusion inverted": lambda d: change_lines(
+        d,
+        "formats/visdrone-mot/**/annotations/*.txt",
+        lambda line: with_column(line, ",", 9, lambda v: {"0": "2", "2": "0"}.get(v, v)),
+    ),
+    "formats mot boxes 2 px off": lambda d: change_lines(
+        d, "formats/mot/*/*/gt/gt.txt", lambda line: with_column(line, ",", 2, lambda v: f"{float(v) + 2:g}")
+    ),
+    "formats mot frames from zero": lambda d: change_lines(
+        d, "formats/mot/*/*/gt/gt.txt", lambda line: with_column(line, ",", 0, lambda v: str(int(v) - 1))
+    ),
+}

@@ -3,21 +3,11 @@ import json
 
 import numpy
 
-from .dataset import damage
+from .dataset import damage, damage_of_labels
 from .rasters import change_npy, read_npy
 
 
-@damage
-def density_map_2_px_off(d):
-    change_npy(d, d.image()["density_file"], lambda a: numpy.roll(a, 2, 1))
-
-
-@damage
-def density_map_of_another_picture(d):
-    change_npy(d, d.image(0)["density_file"], lambda a: read_npy(d.path(d.image(0, 0)["density_file"])) * 1)
-
-
-@damage
+@damage_of_labels
 def density_map_without_somebody(d):
     image = d.image()
     image["density_count"] -= 1
@@ -29,7 +19,6 @@ def density_map_without_somebody(d):
         return numpy.maximum(a - kernel / kernel.sum(), 0)
 
     change_npy(d, image["density_file"], lift)
-    d.save_coco()
 
 
 def field_names(d, run=0):
@@ -40,26 +29,6 @@ def field_names(d, run=0):
 def fields_turned_by_180_degrees(d):
     for name in field_names(d):
         change_npy(d, name, lambda a: a[:, ::-1, ::-1])
-
-
-@damage
-def field_mirrored(d):
-    change_npy(d, field_names(d)[2], lambda a: a[:, :, ::-1])
-
-
-@damage
-def field_velocities_reversed(d):
-    change_npy(d, field_names(d)[2], lambda a: numpy.stack([a[0], -a[1], -a[2], a[3]]))
-
-
-@damage
-def field_velocity_axes_exchanged(d):
-    change_npy(d, field_names(d)[2], lambda a: a[[0, 2, 1, 3]])
-
-
-@damage
-def field_one_cell_off(d):
-    change_npy(d, field_names(d)[2], lambda a: numpy.roll(a, 1, 2))
 
 
 @damage
@@ -85,32 +54,16 @@ def fields_of_the_other_run(d):
 
 
 @damage
-def field_voronoi_doubled(d):
-    change_npy(d, field_names(d)[2], lambda a: a * numpy.array([1, 1, 1, 2])[:, None, None])
-
-
-@damage
-def field_planes_of_density_exchanged(d):
-    change_npy(d, field_names(d)[2], lambda a: a[[3, 1, 2, 0]])
-
-
-@damage
-def density_map_mirrored(d):
-    change_npy(d, d.image()["density_file"], lambda a: a[:, ::-1])
-
-
-@damage
 def density_maps_10_percent_more(d):
     for image in d.images:
         change_npy(d, image["density_file"], lambda a: 1.1 * a)
 
 
-@damage
+@damage_of_labels
 def density_maps_and_counts_doubled(d):
     for image in d.images:
         change_npy(d, image["density_file"], lambda a: 2 * a)
         image["density_count"] *= 2
-    d.save_coco()
 
 
 def spoil_middle(value):
@@ -119,21 +72,6 @@ def spoil_middle(value):
         return a
 
     return spoil
-
-
-@damage
-def density_map_with_nan(d):
-    change_npy(d, d.image()["density_file"], spoil_middle(numpy.nan))
-
-
-@damage
-def field_with_nan(d):
-    change_npy(d, field_names(d)[1], spoil_middle(numpy.nan))
-
-
-@damage
-def field_with_infinity(d):
-    change_npy(d, field_names(d)[1], spoil_middle(numpy.inf))
 
 
 @damage
@@ -146,11 +84,6 @@ def fields_10_percent_more(d):
 def field_velocities_in_km_per_h(d):
     for name in field_names(d):
         change_npy(d, name, lambda a: a * numpy.array([1, 3.6, 3.6, 1])[:, None, None])
-
-
-@damage
-def field_upside_down(d):
-    change_npy(d, field_names(d)[2], lambda a: a[:, ::-1])
 
 
 @damage
@@ -174,3 +107,26 @@ def field_people_one_more(d):
         else:
             grid[key][1] += 1
     d.write(name, json.dumps(grid, indent=2) + "\n")
+
+
+DAMAGES = {
+    "density map 2 px off": lambda d: change_npy(d, d.image()["density_file"], lambda a: numpy.roll(a, 2, 1)),
+    "density map of another picture": lambda d: change_npy(
+        d, d.image(0)["density_file"], lambda a: read_npy(d.path(d.image(0, 0)["density_file"])) * 1
+    ),
+    "field mirrored": lambda d: change_npy(d, field_names(d)[2], lambda a: a[:, :, ::-1]),
+    "field velocities reversed": lambda d: change_npy(
+        d, field_names(d)[2], lambda a: numpy.stack([a[0], -a[1], -a[2], a[3]])
+    ),
+    "field velocity axes exchanged": lambda d: change_npy(d, field_names(d)[2], lambda a: a[[0, 2, 1, 3]]),
+    "field one cell off": lambda d: change_npy(d, field_names(d)[2], lambda a: numpy.roll(a, 1, 2)),
+    "field voronoi doubled": lambda d: change_npy(
+        d, field_names(d)[2], lambda a: a * numpy.array([1, 1, 1, 2])[:, None, None]
+    ),
+    "field planes of density exchanged": lambda d: change_npy(d, field_names(d)[2], lambda a: a[[3, 1, 2, 0]]),
+    "density map mirrored": lambda d: change_npy(d, d.image()["density_file"], lambda a: a[:, ::-1]),
+    "density map with nan": lambda d: change_npy(d, d.image()["density_file"], spoil_middle(numpy.nan)),
+    "field with nan": lambda d: change_npy(d, field_names(d)[1], spoil_middle(numpy.nan)),
+    "field with infinity": lambda d: change_npy(d, field_names(d)[1], spoil_middle(numpy.inf)),
+    "field upside down": lambda d: change_npy(d, field_names(d)[2], lambda a: a[:, ::-1]),
+}

@@ -3,11 +3,19 @@ import json
 
 import numpy
 
-from .dataset import damage, tracks_by_frequency, two_people
+from .dataset import (
+    damage,
+    damage_by,
+    damage_of_labels,
+    each_person_of_an_image,
+    each_track,
+    tracks_by_frequency,
+    two_people,
+)
 from .rasters import ids_to_rgb, instances, png_bytes, raster_name
 
 
-@damage
+@damage_of_labels
 def somebody_erased(d):
     """From records, instances and parts; the image still shows them."""
     image = d.image()
@@ -22,10 +30,9 @@ def somebody_erased(d):
     ids[mask] = 0xFF0000
     d.write(raster_name("instances", image), png_bytes(ids_to_rgb(ids)))
     d.change_raster("parts", image, lambda a: numpy.where(mask[..., None], 0, a).astype(a.dtype))
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def two_people_exchanged_in_one_frame(d):
     """Ids in records and instances alike."""
     image = d.image()
@@ -38,22 +45,19 @@ def two_people_exchanged_in_one_frame(d):
     for key in ("track_id", "id"):
         a[key], b[key] = b[key], a[key]
     d.coco["annotations"].sort(key=lambda p: p["id"])
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def poses_of_two_people_exchanged(d):
     a, b = two_people(d, d.image())
     for key in ("position", "velocity", "heading", "box_3d", "keypoints", "keypoints_3d", "num_keypoints", "head"):
         a[key], b[key] = b[key], a[key]
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def attributes_of_two_people_exchanged(d):
     a, b = tracks_by_frequency(d)[:2]
     a["attributes"], b["attributes"] = b["attributes"], a["attributes"]
-    d.save_coco()
 
 
 def first_garment(d):
@@ -61,92 +65,78 @@ def first_garment(d):
     return track["attributes"]["clothes"][0]
 
 
-@damage
+@damage_of_labels
 def garment_called_another_color(d):
     garment = next(
         g for t in d.coco["tracks"] if "attributes" in t for g in t["attributes"]["clothes"] if "colour" in g
     )
     garment["colour_name"] = "pink" if garment["colour_name"] != "pink" else "blue"
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def garment_in_another_slot(d):
     first_garment(d)["slot"] = "hat"
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def garment_left_out(d):
     tracks_by_frequency(d)[0]["attributes"]["clothes"].pop()
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def attributes_of_all_people_moved_by_one(d):
     tracks = [t for t in d.coco["tracks"] if "attributes" in t]
     attributes = [t["attributes"] for t in tracks]
     for track, other in zip(tracks, attributes[1:] + attributes[:1]):
         track["attributes"] = other
-    d.save_coco()
 
 
-@damage
-def colors_of_clothes_exchanged(d):
-    for track in d.coco["tracks"]:
-        a = track.get("attributes", {})
-        if "top_colour" in a and "bottom_colour" in a:
-            a["top_colour"], a["bottom_colour"] = a["bottom_colour"], a["top_colour"]
-    d.save_coco()
+@damage_by(each_track)
+def colors_of_clothes_exchanged(track):
+    a = track.get("attributes", {})
+    if "top_colour" in a and "bottom_colour" in a:
+        a["top_colour"], a["bottom_colour"] = a["bottom_colour"], a["top_colour"]
 
 
-@damage
-def colors_as_bgr(d):
-    for track in d.coco["tracks"]:
-        for key, value in track.get("attributes", {}).items():
-            if key.endswith("_colour"):
-                track["attributes"][key] = "#" + value[5:7] + value[3:5] + value[1:3]
-    d.save_coco()
+@damage_by(each_track)
+def colors_as_bgr(track):
+    for key, value in track.get("attributes", {}).items():
+        if key.endswith("_colour"):
+            track["attributes"][key] = "#" + value[5:7] + value[3:5] + value[1:3]
 
 
-@damage
+@damage_of_labels
 def sex_of_one_person(d):
     track = tracks_by_frequency(d)[0]["attributes"]
     track["sex"] = "male" if track["sex"] == "female" else "female"
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def stature_of_one_person_20_cm_less(d):
     track = tracks_by_frequency(d)[0]["attributes"]
     track["stature_m"] = round(track["stature_m"] - 0.2, 3)
-    d.save_coco()
 
 
-@damage
-def state_of_walkers_waiting(d):
-    for person in d.people(d.image()):
-        if person["state"] in ("walking", "running"):
-            person["state"] = "waiting"
-    d.save_coco()
+@damage_by(each_person_of_an_image)
+def state_of_walkers_waiting(person):
+    if person["state"] in ("walking", "running"):
+        person["state"] = "waiting"
 
 
-@damage
+@damage_of_labels
 def state_of_one_person_running(d):
     d.largest(d.image(), lambda p: p["state"] in ("walking", "waiting"))["state"] = "running"
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def exits_of_people_exchanged(d):
     names = [e["id"] for e in d.images[0]["exits"]]
     for person in d.everybody:
         if person.get("exit") in names:
             person["exit"] = names[(names.index(person["exit"]) + 1) % len(names)]
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def labels_of_the_frame_before(d):
     """Records and rasters of one image are those of the frame before; the image is right."""
     image, before = d.image(-1, 3), d.image(-1, 2)
@@ -163,7 +153,6 @@ def labels_of_the_frame_before(d):
     for kind in ("depth", "instances", "parts", "normals", "flow"):
         d.copy(raster_name(kind, before), raster_name(kind, image))
     d.write(image["density_file"], d.path(before["density_file"]).read_bytes())
-    d.save_coco()
 
 
 def renumber(d, images, numbers):
@@ -208,7 +197,7 @@ def ids_of_two_people_exchanged_in_one_camera(d):
     renumber(d, images, {a["track_id"]: b["track_id"], b["track_id"]: a["track_id"]})
 
 
-@damage
+@damage_of_labels
 def one_person_removed_everywhere(d):
     """From records, counts and the manifest; the rasters and images still show the person."""
     track = d.largest(d.image())["track_id"]
@@ -232,10 +221,9 @@ def one_person_removed_everywhere(d):
     manifest["runs"][0]["agents"] -= 1
     manifest["runs"][0]["annotations"] -= len(gone)
     d.write("manifest.json", json.dumps(manifest, indent=1))
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def everybody_in_the_background_removed(d):
     """People smaller than the median, from the records of an image and its counts."""
     image = d.image()
@@ -245,10 +233,9 @@ def everybody_in_the_background_removed(d):
     image["counts"]["visible"] -= len(gone)
     image["counts"]["truncated"] -= sum(1 for p in gone if "truncation" in p)
     d.coco["annotations"] = [p for p in d.coco["annotations"] if p not in gone]
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def annotation_twice(d):
     image = d.image()
     person = json.loads(json.dumps(d.largest(image)))
@@ -260,58 +247,48 @@ def annotation_twice(d):
     image["counts"]["all"] += 1
     image["counts"]["visible"] += 1
     image["counts"]["truncated"] += 1 if "truncation" in person else 0
-    d.save_coco()
 
 
-@damage
-def top_colors_inverted(d):
-    for track in d.coco["tracks"]:
-        a = track.get("attributes", {})
-        if "top_colour" in a:
-            a["top_colour"] = f"#{0xFFFFFF - int(a['top_colour'][1:], 16):06x}"
-    d.save_coco()
+@damage_by(each_track)
+def top_colors_inverted(track):
+    a = track.get("attributes", {})
+    if "top_colour" in a:
+        a["top_colour"] = f"#{0xFFFFFF - int(a['top_colour'][1:], 16):06x}"
 
 
-@damage
+@damage_of_labels
 def top_color_of_the_largest_person_green(d):
     d_track = tracks_by_frequency(d)[0]["attributes"]
     d_track["top_colour"] = "#00ff00"
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def groups_moved_by_one(d):
     tracks = [t for t in d.coco["tracks"] if "group" in t]
     groups = [t["group"] for t in tracks]
     assert len(set(groups)) > 1, "nobody is in a group"
     for track, other in zip(tracks, groups[1:] + groups[:1]):
         track["group"] = other
-    d.save_coco()
 
 
-@damage
-def ages_ten_years_older(d):
-    for track in d.coco["tracks"]:
-        if "attributes" in track:
-            track["attributes"]["age_years"] += 10
-    d.save_coco()
+@damage_by(each_track)
+def ages_ten_years_older(track):
+    if "attributes" in track:
+        track["attributes"]["age_years"] += 10
 
 
-@damage
-def statures_in_centimeters(d):
-    for track in d.coco["tracks"]:
-        if "attributes" in track:
-            track["attributes"]["stature_m"] *= 100
-    d.save_coco()
+@damage_by(each_track)
+def statures_in_centimeters(track):
+    if "attributes" in track:
+        track["attributes"]["stature_m"] *= 100
 
 
-@damage
+@damage_of_labels
 def behaviors_of_people_exchanged(d):
     names = sorted({p["behaviour"] for p in d.everybody})
     assert len(names) > 1, "everybody does the same"
     for person in d.everybody:
         person["behaviour"] = names[(names.index(person["behaviour"]) + 1) % len(names)]
-    d.save_coco()
 
 
 @damage
@@ -324,7 +301,7 @@ def categories_exchanged(d):
     d.write(name, changed)
 
 
-@damage
+@damage_of_labels
 def runs_of_images_exchanged(d):
     """The records of the same frame and camera of two runs have each other's people."""
     for camera in d.cameras:
@@ -343,17 +320,15 @@ def runs_of_images_exchanged(d):
     known = {t["id"] for t in d.coco["tracks"]}
     d.coco["annotations"] = [p for p in d.coco["annotations"] if p["track_id"] in known]
     d.coco["annotations"].sort(key=lambda p: p["id"])
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def runs_of_tracks_exchanged(d):
     for track in d.coco["tracks"]:
         track["run"] = d.runs[1 - d.runs.index(track["run"])]
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def carried_items_left_out(d):
     people = [
         t["attributes"] for t in d.coco["tracks"] if t.get("attributes", {}).get("carries", "nothing") != "nothing"
@@ -361,7 +336,6 @@ def carried_items_left_out(d):
     assert people, "nobody carries anything"
     for attributes in people:
         attributes["carries"] = "nothing"
-    d.save_coco()
 
 
 def change_actions(d, change):
@@ -371,27 +345,15 @@ def change_actions(d, change):
     d.save_coco()
 
 
-@damage
-def walking_people_stand(d):
-    change_actions(d, lambda names: ["stand" if name in ("walk", "run") else name for name in names])
-
-
-@damage
-def everybody_carries(d):
-    change_actions(d, lambda names: names + [] if "carry" in names else names + ["carry"])
-
-
-@damage
+@damage_of_labels
 def unknown_action(d):
     d.largest(d.image())["actions"].append("dance")
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def two_motions_at_once(d):
     person = d.largest(d.image())
     person["actions"].append("walk" if "walk" not in person["actions"] else "run")
-    d.save_coco()
 
 
 @damage
@@ -404,9 +366,18 @@ def actions_a_second_late(d):
         d.write(name, "\n".join([head, *late]) + "\n")
 
 
-@damage
+@damage_of_labels
 def together_with_a_stranger(d):
     a, b = d.people(d.image())[:2]
     a["together_with"].append(b["track_id"])
     b["together_with"].append(a["track_id"])
-    d.save_coco()
+
+
+DAMAGES = {
+    "walking people stand": lambda d: change_actions(
+        d, lambda names: ["stand" if name in ("walk", "run") else name for name in names]
+    ),
+    "everybody carries": lambda d: change_actions(
+        d, lambda names: names + [] if "carry" in names else names + ["carry"]
+    ),
+}

@@ -30,26 +30,6 @@ def all_pictures_mirrored(d):
 
 
 @damage
-def pictures_of_two_cameras_exchanged(d):
-    d.exchange(d.image(0)["file_name"], d.image(1)["file_name"])
-
-
-@damage
-def pictures_of_two_frames_exchanged(d):
-    d.exchange(d.image(0, 1)["file_name"], d.image(0, 3)["file_name"])
-
-
-@damage
-def picture_of_the_next_frame(d):
-    d.copy(d.image(-1, 2)["file_name"], d.image(-1, 1)["file_name"])
-
-
-@damage
-def picture_of_the_other_run(d):
-    d.copy(d.image(0, run=1)["file_name"], d.image(0)["file_name"])
-
-
-@damage
 def picture_2_px_to_the_right(d):
     image = d.image()
     d.save_picture(image, Image.fromarray(numpy.roll(numpy.array(d.picture(image)), 2, 1)))
@@ -144,3 +124,11 @@ def pictures_of_a_camera_one_frame_late(d):
     data = [d.path(d.image(-1, f)["file_name"]).read_bytes() for f in range(d.frames)]
     for frame in range(1, d.frames):
         d.write(d.image(-1, frame)["file_name"], data[frame - 1])
+
+
+DAMAGES = {
+    "pictures of two cameras exchanged": lambda d: d.exchange(d.image(0)["file_name"], d.image(1)["file_name"]),
+    "pictures of two frames exchanged": lambda d: d.exchange(d.image(0, 1)["file_name"], d.image(0, 3)["file_name"]),
+    "picture of the next frame": lambda d: d.copy(d.image(-1, 2)["file_name"], d.image(-1, 1)["file_name"]),
+    "picture of the other run": lambda d: d.copy(d.image(0, run=1)["file_name"], d.image(0)["file_name"]),
+}

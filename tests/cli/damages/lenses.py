@@ -5,7 +5,7 @@ import re
 import numpy
 
 from .cameras import sensor_tables
-from .dataset import damage
+from .dataset import damage, damage_by, damage_of_labels, each_image
 
 
 def change_calibrations(d, change):
@@ -14,7 +14,7 @@ def change_calibrations(d, change):
         d.write(name, change(path.read_text()))
 
 
-@damage
+@damage_of_labels
 def focal_length_3_percent_more_in_calibrations_too(d):
     image = d.images[0]
     fx, fy = image["camera"]["K"][0][0], image["camera"]["K"][1][1]
@@ -22,7 +22,6 @@ def focal_length_3_percent_more_in_calibrations_too(d):
         image["camera"]["K"][0][0] *= 1.03
         image["camera"]["K"][1][1] *= 1.03
     change_calibrations(d, lambda text: scale_numbers(text, {fx, fy}, 1.03))
-    d.save_coco()
 
 
 def scale_numbers(text, values, factor):
@@ -34,18 +33,14 @@ def scale_numbers(text, values, factor):
     return re.sub(r"-?\d+\.\d*(?:[eE][+-]?\d+)?", scaled, text)
 
 
-@damage
-def focal_length_3_percent_more_along_x(d):
-    for image in d.images:
-        image["camera"]["K"][0][0] *= 1.03
-    d.save_coco()
+@damage_by(each_image)
+def focal_length_3_percent_more_along_x(image):
+    image["camera"]["K"][0][0] *= 1.03
 
 
-@damage
-def principal_point_3_px_off(d):
-    for image in d.images:
-        image["camera"]["K"][0][2] += 3
-    d.save_coco()
+@damage_by(each_image)
+def principal_point_3_px_off(image):
+    image["camera"]["K"][0][2] += 3
 
 
 @damage
@@ -60,23 +55,21 @@ def calibration_files_of_two_cameras_exchanged(d):
     d.exchange(names[0], names[1])
 
 
-@damage
+@damage_of_labels
 def distortion_with_the_other_sign(d):
     assert any("distortion" in i["camera"] for i in d.images), "no lens"
     for image in d.images:
         lens = image["camera"].get("distortion", {})
         for key in lens:
             lens[key] = -lens[key]
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def lens_called_pinhole(d):
     assert any("distortion" in i["camera"] for i in d.images), "no lens"
     for image in d.images:
         if image["camera"].pop("distortion", None):
             image["camera"]["model"] = "pinhole"
-    d.save_coco()
 
 
 def turn_cameras(d, images, degrees):
@@ -97,25 +90,14 @@ def turn_cameras(d, images, degrees):
     d.save_coco()
 
 
-@damage
-def cameras_turned_by_1_degree(d):
-    turn_cameras(d, d.images, 1)
-
-
-@damage
-def camera_of_one_picture_turned_by_1_degree(d):
-    turn_cameras(d, [d.image()], 1)
-
-
-@damage
+@damage_of_labels
 def times_one_frame_late(d):
     step = d.image(0, 1)["time_s"] - d.image(0, 0)["time_s"]
     for image in d.images:
         image["time_s"] += step
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def times_and_capture_half_a_second_late(d):
     """The times of images and the manifest's job; tables of exits and sensors keep theirs."""
     for image in d.images:
@@ -124,10 +106,9 @@ def times_and_capture_half_a_second_late(d):
     manifest["job"]["capture"]["from_s"] += 0.5
     manifest["job"]["capture"]["to_s"] += 0.5
     d.write("manifest.json", json.dumps(manifest, indent=1))
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def capture_rate_doubled(d):
     manifest = json.loads(d.path("manifest.json").read_text())
     manifest["job"]["capture"]["rate_hz"] *= 2
@@ -135,20 +116,18 @@ def capture_rate_doubled(d):
     for image in d.images:
         image["time_s"] = first + (image["time_s"] - first) / 2
     d.write("manifest.json", json.dumps(manifest, indent=1))
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def weather_rain_everywhere(d):
     manifest = json.loads(d.path("manifest.json").read_text())
     for record in [*d.images, *manifest["runs"]]:
         record["environment"]["weather"] = "rain"
         record["environment"]["rain_mm_per_h"] = 4.0
     d.write("manifest.json", json.dumps(manifest, indent=1))
-    d.save_coco()
 
 
-@damage
+@damage_of_labels
 def time_of_day_three_hours_later(d):
     """With the sun where it then is; job, manifest and images alike."""
     manifest = json.loads(d.path("manifest.json").read_text())
@@ -157,14 +136,11 @@ def time_of_day_three_hours_later(d):
         record["environment"]["sun_azimuth_deg"] = 161.9
         record["environment"]["sun_elevation_deg"] = 5.2
     d.write("manifest.json", json.dumps(manifest, indent=1))
-    d.save_coco()
 
 
-@damage
-def sensor_record_says_noise(d):
-    for image in d.images:
-        image["sensor"]["iso"] = 6400.0
-    d.save_coco()
+@damage_by(each_image)
+def sensor_record_says_noise(image):
+    image["sensor"]["iso"] = 6400.0
 
 
 def change_columns(d, names, change, tables=None):
@@ -195,32 +171,11 @@ def gyro_without_noise(d):
     change_columns(d, GYRO, lambda v, head, row: [float(row[head.index(name)]) for name in true])
 
 
-@damage
-def accelerometer_5_percent_more(d):
-    change_columns(d, columns_like(d, "acc"), lambda v, head, row: [1.05 * x for x in v])
-
-
-@damage
-def magnetometer_axes_exchanged(d):
-    change_columns(d, columns_like(d, "mag"), lambda v, head, row: [v[1], v[0], v[2]])
-
-
-@damage
-def gps_30_m_off(d):
-    change_columns(d, GPS, lambda v, head, row: [v[0] + 30, v[1], v[2]])
-
-
-@damage
-def pressure_in_hectopascal(d):
-    change_columns(d, ["pressure_pa"], lambda v, head, row: [v[0] / 100])
-
-
-@damage
+@damage_of_labels
 def energy_of_the_battery_halved(d):
     change_columns(d, ["energy_j"], lambda v, head, row: [v[0] / 2])
     for image in d.images:
         image["flight"]["true"]["energy_wh"] /= 2
-    d.save_coco()
 
 
 @damage
@@ -243,3 +198,17 @@ def wind_of_the_job(d):
     manifest = json.loads(d.path("manifest.json").read_text())
     manifest["job"]["environment"]["wind"]["speed_mps"] = 9.0
     d.write("manifest.json", json.dumps(manifest, indent=1))
+
+
+DAMAGES = {
+    "cameras turned by 1 degree": lambda d: turn_cameras(d, d.images, 1),
+    "camera of one picture turned by 1 degree": lambda d: turn_cameras(d, [d.image()], 1),
+    "accelerometer 5 percent more": lambda d: change_columns(
+        d, columns_like(d, "acc"), lambda v, head, row: [1.05 * x for x in v]
+    ),
+    "magnetometer axes exchanged": lambda d: change_columns(
+        d, columns_like(d, "mag"), lambda v, head, row: [v[1], v[0], v[2]]
+    ),
+    "gps 30 m off": lambda d: change_columns(d, GPS, lambda v, head, row: [v[0] + 30, v[1], v[2]]),
+    "pressure in hectopascal": lambda d: change_columns(d, ["pressure_pa"], lambda v, head, row: [v[0] / 100]),
+}

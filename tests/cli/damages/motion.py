@@ -30,61 +30,6 @@ def backward_flow_is_forward_flow(d):
 
 
 @damage
-def backward_flow_reversed(d):
-    change_flow(d, moving(d)[1:2], lambda f: -f, kind="flow_backward")
-
-
-@damage
-def backward_flow_of_people_zero(d):
-    change_flow(d, moving(d)[1:2], lambda f: 0 * f, is_person, "flow_backward")
-
-
-@damage
-def backward_flow_of_the_first_frame(d):
-    d.copy(raster_name("flow_backward", d.image(-1, 1)), raster_name("flow_backward", d.image(-1, 0)))
-
-
-@damage
-def occlusion_all_visible(d):
-    change_targets(d, moving(d)[1], [0, 1, 1, 1])
-
-
-@damage
-def occlusion_inverted(d):
-    change_targets(d, moving(d)[1], [0, 2, 1, 3])
-
-
-@damage
-def occlusion_outside_is_hidden(d):
-    change_targets(d, moving(d)[1], [0, 1, 2, 2])
-
-
-@damage
-def occlusion_of_the_frame_before(d):
-    d.copy(raster_name("flow_occlusion", d.image(-1, 1)), raster_name("flow_occlusion", d.image(-1, 2)))
-
-
-@damage
-def occlusion_of_unknown_values(d):
-    change_targets(d, moving(d)[1], [0, 1, 4, 3])
-
-
-@damage
-def scene_flow_reversed(d):
-    change_scene_flow(d, d.image(0), lambda m: -m)
-
-
-@damage
-def scene_flow_axes_exchanged(d):
-    change_scene_flow(d, d.image(0), lambda m: m[..., [1, 0, 2]])
-
-
-@damage
-def scene_flow_in_centimeters(d):
-    change_scene_flow(d, d.image(0), lambda m: m / 10)
-
-
-@damage
 def scene_flow_a_tenth_less(d):
     for image in d.images:
         if image["frame"] < d.frames - 1:
@@ -99,11 +44,30 @@ def scene_flow_of_one_person_zero(d):
 
 
 @damage
-def scene_flow_of_still_pixels_5_cm(d):
-    change_scene_flow(d, d.image(0), lambda m: m + [50, 0, 0], lambda ids: ~is_person(ids))
-
-
-@damage
 def scene_flow_of_the_last_frame(d):
     last = d.image(-1, d.frames - 1)
     d.copy(raster_name("scene_flow", d.image(-1, d.frames - 2)), raster_name("scene_flow", last))
+
+
+DAMAGES = {
+    "backward flow reversed": lambda d: change_flow(d, moving(d)[1:2], lambda f: -f, kind="flow_backward"),
+    "backward flow of people zero": lambda d: change_flow(
+        d, moving(d)[1:2], lambda f: 0 * f, is_person, "flow_backward"
+    ),
+    "backward flow of the first frame": lambda d: d.copy(
+        raster_name("flow_backward", d.image(-1, 1)), raster_name("flow_backward", d.image(-1, 0))
+    ),
+    "occlusion all visible": lambda d: change_targets(d, moving(d)[1], [0, 1, 1, 1]),
+    "occlusion inverted": lambda d: change_targets(d, moving(d)[1], [0, 2, 1, 3]),
+    "occlusion outside is hidden": lambda d: change_targets(d, moving(d)[1], [0, 1, 2, 2]),
+    "occlusion of the frame before": lambda d: d.copy(
+        raster_name("flow_occlusion", d.image(-1, 1)), raster_name("flow_occlusion", d.image(-1, 2))
+    ),
+    "occlusion of unknown values": lambda d: change_targets(d, moving(d)[1], [0, 1, 4, 3]),
+    "scene flow reversed": lambda d: change_scene_flow(d, d.image(0), lambda m: -m),
+    "scene flow axes exchanged": lambda d: change_scene_flow(d, d.image(0), lambda m: m[..., [1, 0, 2]]),
+    "scene flow in centimeters": lambda d: change_scene_flow(d, d.image(0), lambda m: m / 10),
+    "scene flow of still pixels 5 cm": lambda d: change_scene_flow(
+        d, d.image(0), lambda m: m + [50, 0, 0], lambda ids: ~is_person(ids)
+    ),
+}

@@ -27,11 +27,6 @@ def depth_of_buildings_4_percent_less(d):
 
 
 @damage
-def depth_of_buildings_in_one_picture(d):
-    scale_depth(d, d.image(0), 0.97, is_building)
-
-
-@damage
 def depth_of_one_building(d):
     image = d.image()
     ids = instances(d, image)
@@ -54,16 +49,6 @@ def depth_of_one_person_1_m_more(d):
 
 
 @damage
-def depth_1_percent_more(d):
-    scale_depth(d, d.image(), 1.01, lambda i: i >= 0)
-
-
-@damage
-def depth_of_the_frame_before(d):
-    d.copy(raster_name("depth", d.image(-1, 1)), raster_name("depth", d.image(-1, 2)))
-
-
-@damage
 def depth_along_the_ray(d):
     image = d.image()
     k = image["camera"]["K"]
@@ -83,26 +68,6 @@ def change_normals(d, images, change, where=lambda ids: ids > 0):
 
 
 @damage
-def normals_flipped(d):
-    change_normals(d, d.images, lambda n: -n)
-
-
-@damage
-def normals_of_buildings_flipped_in_one_picture(d):
-    change_normals(d, [d.image()], lambda n: -n, is_building)
-
-
-@damage
-def normals_of_people_flipped(d):
-    change_normals(d, d.images, lambda n: -n, is_person)
-
-
-@damage
-def normal_axes_exchanged(d):
-    change_normals(d, d.images, lambda n: n[..., [1, 0, 2]])
-
-
-@damage
 def normals_turned_by_20_degrees(d):
     c, s = numpy.cos(0.35), numpy.sin(0.35)
     change_normals(d, [d.image()], lambda n: n @ numpy.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]))
@@ -112,11 +77,6 @@ def normals_turned_by_20_degrees(d):
 def normals_in_camera_axes(d):
     image = d.image()
     change_normals(d, [image], lambda n: n @ numpy.array(image["camera"]["R"]).T)
-
-
-@damage
-def normals_of_the_frame_before(d):
-    d.copy(raster_name("normals", d.image(-1, 1)), raster_name("normals", d.image(-1, 2)))
 
 
 def change_flow(d, images, change, where=lambda ids: ids >= 0, kind="flow"):
@@ -137,40 +97,10 @@ def moving(d):
 
 
 @damage
-def flow_reversed(d):
-    change_flow(d, moving(d), lambda f: -f)
-
-
-@damage
-def flow_axes_exchanged(d):
-    change_flow(d, moving(d)[1:2], lambda f: f[..., ::-1])
-
-
-@damage
-def flow_of_still_pixels_zero(d):
-    change_flow(d, moving(d)[1:2], lambda f: 0 * f, lambda ids: ~is_person(ids))
-
-
-@damage
-def flow_of_people_zero(d):
-    change_flow(d, [d.image(0)], lambda f: 0 * f, is_person)
-
-
-@damage
 def flow_of_one_person_reversed(d):
     image = d.image(0)
     number = walker(d, image)["track_id"] % 1000000
     change_flow(d, [image], lambda f: -f, lambda ids: ids == number)
-
-
-@damage
-def flow_5_percent_more(d):
-    change_flow(d, moving(d)[1:2], lambda f: 1.05 * f)
-
-
-@damage
-def flow_of_the_frame_before(d):
-    d.copy(raster_name("flow", d.image(-1, 1)), raster_name("flow", d.image(-1, 2)))
 
 
 @damage
@@ -180,11 +110,6 @@ def flow_half_unknown(d):
         return a
 
     d.change_raster("flow", d.image(), forget)
-
-
-@damage
-def flow_of_the_last_frame(d):
-    d.copy(raster_name("flow", d.image(-1, d.frames - 2)), raster_name("flow", d.image(-1, d.frames - 1)))
 
 
 SIDES = numpy.array([0, 1, 2, 4, 3, 6, 5, 8, 7, 9], numpy.uint8)
@@ -215,11 +140,6 @@ def parts_heads_and_torsos_exchanged(d):
 def parts_arms_and_legs_exchanged(d):
     table = numpy.array([0, 1, 2, 5, 6, 3, 4, 7, 8, 9], numpy.uint8)
     d.change_raster("parts", d.image(), lambda a: table[a])
-
-
-@damage
-def parts_all_torso(d):
-    d.change_raster("parts", d.image(), lambda a: numpy.where(a > 0, 2, 0).astype(a.dtype))
 
 
 @damage
@@ -265,52 +185,12 @@ def depth_of_people_2_percent_more(d):
 
 
 @damage
-def depth_mirrored(d):
-    d.change_raster("depth", d.image(), lambda a: a[:, ::-1])
-
-
-@damage
-def depth_in_millimeters(d):
-    d.change_raster("depth", d.image(), lambda a: numpy.minimum(a.astype(int) * 10, 65535).astype(a.dtype))
-
-
-@damage
-def depth_of_the_other_camera(d):
-    d.copy(raster_name("depth", d.image(0)), raster_name("depth", d.image(1)))
-
-
-@damage
 def depth_unknown_in_a_patch(d):
     def forget(a):
         a[: a.shape[0] // 3, : a.shape[1] // 3] = 0
         return a
 
     d.change_raster("depth", d.image(), forget)
-
-
-@damage
-def normals_mirrored(d):
-    change_normals(d, d.images, lambda n: n * numpy.array([-1, 1, 1]))
-
-
-@damage
-def normals_all_up(d):
-    change_normals(d, [d.image()], lambda n: 0 * n + numpy.array([0, 0, 1]))
-
-
-@damage
-def flow_in_half_units(d):
-    change_flow(d, moving(d), lambda f: f / 2)
-
-
-@damage
-def flow_2_px_off(d):
-    change_flow(d, moving(d)[1:2], lambda f: f + numpy.array([2, 0]))
-
-
-@damage
-def flow_of_people_1_px_off_everywhere(d):
-    change_flow(d, [i for i in d.images if i["frame"] < d.frames - 1], lambda f: f + numpy.array([1, 1]), is_person)
 
 
 @damage
@@ -328,26 +208,54 @@ def instances_2_px_off(d):
     d.write(name, png_bytes(numpy.roll(array, 2, 1)))
 
 
-@damage
-def parts_2_px_off(d):
-    d.change_raster("parts", d.image(), lambda a: numpy.roll(a, 2, 1))
-
-
-@damage
-def parts_of_two_frames_exchanged(d):
-    d.exchange(raster_name("parts", d.image(-1, 1)), raster_name("parts", d.image(-1, 2)))
-
-
-@damage
-def semantic_people_called_umbrellas(d):
-    d.change_raster("semantic", d.image(), lambda a: numpy.where(a == 4, 5, a).astype(a.dtype))
-
-
-@damage
-def semantic_mirrored(d):
-    d.change_raster("semantic", d.image(), lambda a: a[:, ::-1])
-
-
-@damage
-def semantic_props_called_buildings(d):
-    d.change_raster("semantic", d.image(), lambda a: numpy.where(a >= 17, 2, a).astype(a.dtype))
+DAMAGES = {
+    "depth of buildings in one picture": lambda d: scale_depth(d, d.image(0), 0.97, is_building),
+    "depth 1 percent more": lambda d: scale_depth(d, d.image(), 1.01, lambda i: i >= 0),
+    "depth of the frame before": lambda d: d.copy(
+        raster_name("depth", d.image(-1, 1)), raster_name("depth", d.image(-1, 2))
+    ),
+    "normals flipped": lambda d: change_normals(d, d.images, lambda n: -n),
+    "normals of buildings flipped in one picture": lambda d: change_normals(d, [d.image()], lambda n: -n, is_building),
+    "normals of people flipped": lambda d: change_normals(d, d.images, lambda n: -n, is_person),
+    "normal axes exchanged": lambda d: change_normals(d, d.images, lambda n: n[..., [1, 0, 2]]),
+    "normals of the frame before": lambda d: d.copy(
+        raster_name("normals", d.image(-1, 1)), raster_name("normals", d.image(-1, 2))
+    ),
+    "flow reversed": lambda d: change_flow(d, moving(d), lambda f: -f),
+    "flow axes exchanged": lambda d: change_flow(d, moving(d)[1:2], lambda f: f[..., ::-1]),
+    "flow of still pixels zero": lambda d: change_flow(d, moving(d)[1:2], lambda f: 0 * f, lambda ids: ~is_person(ids)),
+    "flow of people zero": lambda d: change_flow(d, [d.image(0)], lambda f: 0 * f, is_person),
+    "flow 5 percent more": lambda d: change_flow(d, moving(d)[1:2], lambda f: 1.05 * f),
+    "flow of the frame before": lambda d: d.copy(
+        raster_name("flow", d.image(-1, 1)), raster_name("flow", d.image(-1, 2))
+    ),
+    "flow of the last frame": lambda d: d.copy(
+        raster_name("flow", d.image(-1, d.frames - 2)), raster_name("flow", d.image(-1, d.frames - 1))
+    ),
+    "parts all torso": lambda d: d.change_raster(
+        "parts", d.image(), lambda a: numpy.where(a > 0, 2, 0).astype(a.dtype)
+    ),
+    "depth mirrored": lambda d: d.change_raster("depth", d.image(), lambda a: a[:, ::-1]),
+    "depth in millimeters": lambda d: d.change_raster(
+        "depth", d.image(), lambda a: numpy.minimum(a.astype(int) * 10, 65535).astype(a.dtype)
+    ),
+    "depth of the other camera": lambda d: d.copy(raster_name("depth", d.image(0)), raster_name("depth", d.image(1))),
+    "normals mirrored": lambda d: change_normals(d, d.images, lambda n: n * numpy.array([-1, 1, 1])),
+    "normals all up": lambda d: change_normals(d, [d.image()], lambda n: 0 * n + numpy.array([0, 0, 1])),
+    "flow in half units": lambda d: change_flow(d, moving(d), lambda f: f / 2),
+    "flow 2 px off": lambda d: change_flow(d, moving(d)[1:2], lambda f: f + numpy.array([2, 0])),
+    "flow of people 1 px off everywhere": lambda d: change_flow(
+        d, [i for i in d.images if i["frame"] < d.frames - 1], lambda f: f + numpy.array([1, 1]), is_person
+    ),
+    "parts 2 px off": lambda d: d.change_raster("parts", d.image(), lambda a: numpy.roll(a, 2, 1)),
+    "parts of two frames exchanged": lambda d: d.exchange(
+        raster_name("parts", d.image(-1, 1)), raster_name("parts", d.image(-1, 2))
+    ),
+    "semantic people called umbrellas": lambda d: d.change_raster(
+        "semantic", d.image(), lambda a: numpy.where(a == 4, 5, a).astype(a.dtype)
+    ),
+    "semantic mirrored": lambda d: d.change_raster("semantic", d.image(), lambda a: a[:, ::-1]),
+    "semantic props called buildings": lambda d: d.change_raster(
+        "semantic", d.image(), lambda a: numpy.where(a >= 17, 2, a).astype(a.dtype)
+    ),
+}

@@ -5,7 +5,7 @@ import json
 
 import numpy
 
-from .dataset import damage
+from .dataset import damage, damage_by, damage_of_labels, each_track
 
 
 def sensor_table(d):
@@ -74,40 +74,10 @@ def change_head(d, change):
     d.write(name, "\n".join(lines))
 
 
-@damage
-def keypoint_names_reversed(d):
-    change_head(d, lambda categories: categories[0]["keypoints"].reverse())
-
-
-@damage
-def skeleton_from_zero(d):
-    change_head(
-        d, lambda categories: categories[0].update(skeleton=[[a - 1, b - 1] for a, b in categories[0]["skeleton"]])
-    )
-
-
-@damage
-def skeleton_without_a_limb(d):
-    change_head(d, lambda categories: categories[0]["skeleton"].pop())
-
-
-@damage
-def joint_names_exchanged(d):
-    def change(categories):
-        joints = categories[0]["joints"]
-        joints[17], joints[18] = joints[18], joints[17]
-
-    change_head(d, change)
-
-
-@damage
-def bone_name_left_out(d):
-    change_head(d, lambda categories: categories[0]["bones"].pop())
-
-
-@damage
-def category_left_out(d):
-    change_head(d, lambda categories: categories.pop())
+@damage_by(change_head)
+def joint_names_exchanged(categories):
+    joints = categories[0]["joints"]
+    joints[17], joints[18] = joints[18], joints[17]
 
 
 def change_events(d, change):
@@ -127,61 +97,22 @@ def without(kind, count=None):
     return change
 
 
-@damage
-def notices_left_out(d):
-    change_events(d, without("notices"))
+@damage_by(change_events)
+def notices_half_a_second_early(events):
+    return [{**e, "time_s": round(e["time_s"] - 0.5, 6)} if e["type"] == "notices" else e for e in events]
 
 
-@damage
-def one_notice_left_out(d):
-    change_events(d, without("notices", 1))
+@damage_by(change_events)
+def notices_of_others(events):
+    tracks = [e["track_id"] for e in events if e["type"] == "notices"]
+    moved = iter(tracks[1:] + tracks[:1])
+    return [{**e, "track_id": next(moved)} if e["type"] == "notices" else e for e in events]
 
 
-@damage
-def escapes_left_out(d):
-    change_events(d, without("escapes"))
-
-
-@damage
-def events_left_out(d):
-    change_events(d, lambda events: [])
-
-
-@damage
-def notices_half_a_second_early(d):
-    def change(events):
-        return [{**e, "time_s": round(e["time_s"] - 0.5, 6)} if e["type"] == "notices" else e for e in events]
-
-    change_events(d, change)
-
-
-@damage
-def escapes_called_notices(d):
-    change_events(d, lambda events: [{**e, "type": "notices"} if e["type"] == "escapes" else e for e in events])
-
-
-@damage
-def notices_of_others(d):
-    def change(events):
-        tracks = [e["track_id"] for e in events if e["type"] == "notices"]
-        moved = iter(tracks[1:] + tracks[:1])
-        return [{**e, "track_id": next(moved)} if e["type"] == "notices" else e for e in events]
-
-    change_events(d, change)
-
-
-@damage
-def somebody_departs_twice(d):
-    def change(events):
-        gone = {"time_s": 1.0, "type": "departs", "track_id": events[0]["track_id"]}
-        return [gone, gone, *events]
-
-    change_events(d, change)
-
-
-@damage
-def event_of_unknown_type(d):
-    change_events(d, lambda events: [{**events[0], "type": "sneezes"}, *events[1:]])
+@damage_by(change_events)
+def somebody_departs_twice(events):
+    gone = {"time_s": 1.0, "type": "departs", "track_id": events[0]["track_id"]}
+    return [gone, gone, *events]
 
 
 def change_unseen(d, change):
@@ -202,52 +133,34 @@ def change_unseen(d, change):
     d.write(name, buffer.getvalue())
 
 
-@damage
-def unseen_people_2_m_off(d):
-    def change(values, unseen):
-        values[:, unseen, 0] += 2
-
-    change_unseen(d, change)
+@damage_by(change_unseen)
+def unseen_people_2_m_off(values, unseen):
+    values[:, unseen, 0] += 2
 
 
-@damage
-def unseen_people_mirrored(d):
-    def change(values, unseen):
-        values[:, unseen, 1] *= -1
-
-    change_unseen(d, change)
+@damage_by(change_unseen)
+def unseen_people_mirrored(values, unseen):
+    values[:, unseen, 1] *= -1
 
 
-@damage
-def somebody_unseen_left_out(d):
-    def change(values, unseen):
-        values[:, unseen[0]] = numpy.nan
-
-    change_unseen(d, change)
+@damage_by(change_unseen)
+def somebody_unseen_left_out(values, unseen):
+    values[:, unseen[0]] = numpy.nan
 
 
-@damage
-def somebody_unseen_absent_for_a_frame(d):
-    def change(values, unseen):
-        values[1, unseen[0]] = numpy.nan
-
-    change_unseen(d, change)
+@damage_by(change_unseen)
+def somebody_unseen_absent_for_a_frame(values, unseen):
+    values[1, unseen[0]] = numpy.nan
 
 
-@damage
-def unseen_people_in_other_frames(d):
-    def change(values, unseen):
-        values[:, unseen] = values[::-1, unseen]
-
-    change_unseen(d, change)
+@damage_by(change_unseen)
+def unseen_people_in_other_frames(values, unseen):
+    values[:, unseen] = values[::-1, unseen]
 
 
-@damage
-def unseen_people_look_back(d):
-    def change(values, unseen):
-        values[:, unseen, 2] += numpy.pi
-
-    change_unseen(d, change)
+@damage_by(change_unseen)
+def unseen_people_look_back(values, unseen):
+    values[:, unseen, 2] += numpy.pi
 
 
 @damage
@@ -260,21 +173,18 @@ def unseen_people_in_other_states(d):
     change_unseen(d, change)
 
 
-@damage
+@damage_of_labels
 def one_hidden_person_left_out(d):
     image = next(i for i in d.images if len(i.get("hidden", [])) > 1 and 0 < i["frame"] < d.frames - 1)
     middle = max(image["hidden"], key=lambda p: p["bbox_amodal"][2] * p["bbox_amodal"][3])
     image["hidden"].remove(middle)
     image["counts"]["all"] -= 1
-    d.save_coco()
 
 
-@damage
-def everybody_male(d):
-    for track in d.coco["tracks"]:
-        if "attributes" in track:
-            track["attributes"]["sex"] = "male"
-    d.save_coco()
+@damage_by(each_track)
+def everybody_male(track):
+    if "attributes" in track:
+        track["attributes"]["sex"] = "male"
 
 
 @damage
@@ -306,16 +216,23 @@ def change_class(d, a, b):
     assert changed, "the class does not show"
 
 
-@damage
-def semantic_roofs_and_facades_exchanged(d):
-    exchange_classes(d, d.images, ROOF, BUILDING)
-
-
-@damage
-def semantic_doors_and_facades_exchanged(d):
-    exchange_classes(d, d.images, DOOR, BUILDING)
-
-
-@damage
-def semantic_road_and_pavement_exchanged_in_one_image(d):
-    exchange_classes(d, [d.image()], ROAD, PAVEMENT)
+DAMAGES = {
+    "keypoint names reversed": lambda d: change_head(d, lambda categories: categories[0]["keypoints"].reverse()),
+    "skeleton from zero": lambda d: change_head(
+        d, lambda categories: categories[0].update(skeleton=[[a - 1, b - 1] for a, b in categories[0]["skeleton"]])
+    ),
+    "skeleton without a limb": lambda d: change_head(d, lambda categories: categories[0]["skeleton"].pop()),
+    "bone name left out": lambda d: change_head(d, lambda categories: categories[0]["bones"].pop()),
+    "category left out": lambda d: change_head(d, lambda categories: categories.pop()),
+    "notices left out": lambda d: change_events(d, without("notices")),
+    "one notice left out": lambda d: change_events(d, without("notices", 1)),
+    "escapes left out": lambda d: change_events(d, without("escapes")),
+    "events left out": lambda d: change_events(d, lambda events: []),
+    "escapes called notices": lambda d: change_events(
+        d, lambda events: [{**e, "type": "notices"} if e["type"] == "escapes" else e for e in events]
+    ),
+    "event of unknown type": lambda d: change_events(d, lambda events: [{**events[0], "type": "sneezes"}, *events[1:]]),
+    "semantic roofs and facades exchanged": lambda d: exchange_classes(d, d.images, ROOF, BUILDING),
+    "semantic doors and facades exchanged": lambda d: exchange_classes(d, d.images, DOOR, BUILDING),
+    "semantic road and pavement exchanged in one image": lambda d: exchange_classes(d, [d.image()], ROAD, PAVEMENT),
+}

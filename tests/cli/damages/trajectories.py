@@ -3,7 +3,7 @@ import json
 
 import numpy
 
-from .dataset import damage
+from .dataset import damage, damage_by
 from .rasters import change_npy
 
 
@@ -15,16 +15,6 @@ def person_seen(d):
     """Column of a person whom an image of the first run shows."""
     tracks = json.loads(d.path(f"trajectories/{d.runs[0]}.json").read_text())["track_ids"]
     return tracks.index(d.people(d.image())[0]["track_id"])
-
-
-@damage
-def trajectories_10_cm_off(d):
-    change_npy(d, name_of(d), lambda a: a + numpy.float32([0.1, 0, 0, 0]))
-
-
-@damage
-def trajectories_one_frame_late(d):
-    change_npy(d, name_of(d), lambda a: numpy.concatenate([a[:1], a[:-1]]))
 
 
 @damage
@@ -47,11 +37,6 @@ def trajectories_of_two_people_exchanged(d):
         return a[:, order]
 
     change_npy(d, name_of(d), exchange)
-
-
-@damage
-def trajectory_headings_from_north(d):
-    change_npy(d, name_of(d), lambda a: a - numpy.float32([0, 0, numpy.pi / 2, 0]))
 
 
 @damage
@@ -81,27 +66,27 @@ def change_events(d, change):
     d.write(name, "".join(json.dumps(event) + "\n" for event in events))
 
 
-@damage
-def events_30_m_off(d):
-    def move(event):
-        if "position" in event:
-            event["position"][0] += 30
-
-    change_events(d, move)
+@damage_by(change_events)
+def events_30_m_off(event):
+    if "position" in event:
+        event["position"][0] += 30
 
 
-@damage
-def events_of_the_next_frame(d):
-    def late(event):
-        if "frame" in event:
-            event["frame"] += 1
-
-    change_events(d, late)
+@damage_by(change_events)
+def events_of_the_next_frame(event):
+    if "frame" in event:
+        event["frame"] += 1
 
 
-@damage
-def events_20_s_late(d):
-    def late(event):
-        event["time_s"] += 20
+@damage_by(change_events)
+def events_20_s_late(event):
+    event["time_s"] += 20
 
-    change_events(d, late)
+
+DAMAGES = {
+    "trajectories 10 cm off": lambda d: change_npy(d, name_of(d), lambda a: a + numpy.float32([0.1, 0, 0, 0])),
+    "trajectories one frame late": lambda d: change_npy(d, name_of(d), lambda a: numpy.concatenate([a[:1], a[:-1]])),
+    "trajectory headings from north": lambda d: change_npy(
+        d, name_of(d), lambda a: a - numpy.float32([0, 0, numpy.pi / 2, 0])
+    ),
+}
