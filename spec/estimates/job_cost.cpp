@@ -21,7 +21,8 @@ using nlohmann::json;
 
 namespace {
 
-// CPU time beside that of images (scripts/studies/estimates.py of commit abf006d6 measured all of these).
+// CPU time beside that of images (scripts/studies/estimates.py of commit abf006d6 measured all of
+// these).
 constexpr double kRunS = 0.4;      ///< simulation and figures: processes, place
 constexpr double kShardS = 2.9;    ///< driver, character library, place
 constexpr double kDatasetS = 0.2;  ///< of a job: collecting, hashing

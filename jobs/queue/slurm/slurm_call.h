@@ -14,6 +14,7 @@
 #include "jobs/queue/slurm/slurm_options.h"
 #include "jobs/queue/slurm/slurm_submission.h"
 #include "jobs/queue/workers/executor.h"
+#include "jobs/queue/workers/task_meters.h"
 
 namespace throng::jobs {
 
