@@ -13,7 +13,7 @@ namespace throng::render {
 
 namespace {
 
-constexpr Rgba kWhite = {255, 255, 255, 255};
+constexpr Rgba kWhiteRgba = {255, 255, 255, 255};
 
 /// A portrait's shades as they are in light.
 Rgba linear_shades(const Rgba& shades) {
@@ -120,7 +120,7 @@ class Packer {
                             static_cast<std::uint32_t>(population_.textures.size()));
     packed.normal = octahedral(vertex.normal);
     packed.uv = vertex.uv;
-    packed.base = pack_bytes(kWhite);
+    packed.base = pack_bytes(kWhiteRgba);
     return packed;
   }
 
