@@ -21,6 +21,7 @@
 #include "spec/job/resolved_job.h"
 #include "spec/job/spec.h"
 #include "spec/scenarios/scenario_summary.h"
+#include "world/fields/read_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::server {
