@@ -2,6 +2,7 @@
 # Installs what is needed, builds everything and runs every check and test. Every step runs, whatever failed before; a table
 # at the end names each step with its times, each failed test and the slowest ones.
 # usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz image (default: all of these), long, soak, includes
+# With $THRONG_LIMIT_MIN, the minutes after which it will be cut off, the step image is left out when too few are left.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -198,6 +199,12 @@ step_image() {
   fi
   if ! command -v buildah >/dev/null || [ "$(id -u)" != 0 ]; then
     echo "not run: it needs root and buildah"
+    return
+  fi
+  # A run that is cut off at its limit tells nothing of the steps before, either.
+  local left_min=$((${THRONG_LIMIT_MIN:-1000} - SECONDS / 60))
+  if [ "$left_min" -lt 35 ]; then
+    echo "NOT RUN: it takes up to 35 minutes, and $left_min are left of $THRONG_LIMIT_MIN; run scripts/test.sh image"
     return
   fi
   /usr/bin/python3 tests/docker/test_image.py "$root/build/image" || return 1
