@@ -1,3 +1,5 @@
+#include "jobs/pipeline/frames/render_shard.h"
+
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
@@ -14,7 +16,6 @@
 #include "base/error.h"
 #include "camera/camera.h"
 #include "jobs/pipeline/frames/frame_capture.h"
-#include "jobs/pipeline/frames/render_shard.h"
 #include "jobs/pipeline/runs/job_scenario.h"
 #include "jobs/pipeline/runs/run_input.h"
 #include "jobs/queue/dataset/publication.h"
