@@ -76,7 +76,11 @@ def problem(root, name):
             flags=re.M | re.S,
         )
         for number, line in enumerate(text.splitlines(), 1):
-            if len(line) > MAX_LINE and not line.startswith("|") and '"' not in line:
+            if (
+                len(line) > MAX_LINE
+                and not line.startswith("|")
+                and not (name.endswith("CMakeLists.txt") and '"' in line)
+            ):
                 return f"line {number}: found {len(line)} characters, expected at most {MAX_LINE}"
     return None
 

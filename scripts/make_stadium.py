@@ -59,9 +59,16 @@ class Mesh:
         for material, faces in self.faces.items():
             lines.append(f"usemtl {material}")
             lines += ["f " + " ".join(map(str, face)) for face in faces]
-        (folder / f"{name}.obj").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        write_changed(folder / f"{name}.obj", lines)
         colors = [f"newmtl {m}\nKd {r} {g} {b}" for m, (r, g, b) in MATERIALS.items() if m in self.faces]
-        (folder / f"{name}.mtl").write_text("\n".join(colors) + "\n", encoding="utf-8")
+        write_changed(folder / f"{name}.mtl", colors)
+
+
+def write_changed(file, lines):
+    """Leaves a file alone that has these lines, since the source folder may be read-only by then."""
+    text = "\n".join(lines) + "\n"
+    if not file.exists() or file.read_text(encoding="utf-8") != text:
+        file.write_text(text, encoding="utf-8")
 
 
 def stand(mesh, place, length_m, rows, front_m=1.0, rise_m=0.36, depth_m=0.9, light=lambda along, row: False):

@@ -99,7 +99,7 @@ class ReportChecks(unittest.TestCase):
             return status, text.getvalue()
 
     def test_every_failure_is_named(self):
-        step = {"wall_s": 61, "cpu_s": 100, "failed_parts": ""}
+        step = {"wall_s": 61, "cpu_s": 100, "was_run": True, "failed_parts": ""}
         steps = [
             {**step, "step": "format", "status": 1, "failed_parts": "language"},
             {**step, "step": "release", "status": 0},
@@ -119,8 +119,14 @@ class ReportChecks(unittest.TestCase):
         self.assertEqual(sum("  release  t" in line for line in text.splitlines()), 20)
 
     def test_success_needs_every_step(self):
-        step = {"step": "format", "wall_s": 1, "cpu_s": 1, "failed_parts": ""}
+        step = {"step": "format", "wall_s": 1, "cpu_s": 1, "was_run": True, "failed_parts": ""}
         self.assertEqual(self.report([{**step, "status": 0}], [])[0], 0)
+        self.assertNotIn("NOT RUN", self.report([{**step, "status": 0}], [])[1])
+        status, text = self.report(
+            [{**step, "status": 0}, {**step, "step": "image", "status": 0, "was_run": False}], []
+        )
+        self.assertEqual(status, 0)
+        self.assertIn("all checks passed, NOT RUN: image", text)
         self.assertEqual(self.report([], [])[0], 1)
 
 

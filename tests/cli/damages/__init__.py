@@ -6,6 +6,7 @@ runs, two cameras and five frames; damages of formats/ need `mot`, `yolo-detect`
 
 A module has those that a line makes in its table DAMAGES, and marks functions for the others (dataset.py)."""
 import importlib
+import inspect
 
 MODULES = """motion trajectories images poses shapes identities cameras lenses pixels fields exits exports difficulty counts
 heads runs hazards vehicles""".split()
@@ -13,7 +14,12 @@ heads runs hazards vehicles""".split()
 
 def damages_of(module):
     """Damages of a module by their names, whose words blanks separate."""
-    content = vars(importlib.import_module(f"damages.{module}"))
+    loaded = importlib.import_module(f"damages.{module}")
+    content, text = vars(loaded), inspect.getsource(loaded)
+    for name, value in content.items():
+        own = inspect.isfunction(value) and value.__module__ == loaded.__name__
+        if own and not hasattr(value, "is_damage") and len(text.split(name)) == 2:
+            raise AssertionError(f"damages/{module}.py: nothing uses {name}; a damage is marked or in DAMAGES")
     marked = {name.replace("_", " "): value for name, value in content.items() if getattr(value, "is_damage", False)}
     return marked | content.get("DAMAGES", {})
 

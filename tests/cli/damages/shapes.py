@@ -82,13 +82,6 @@ def amodal_mask_is_its_box(d):
     person["visibility"] = float(f"{person['area'] / person['area_amodal']:.3g}")
 
 
-def somebody_hidden(d):
-    for image in d.images:
-        if 0 < image["frame"] < d.frames - 1 and image.get("hidden"):
-            return image
-    raise AssertionError("nobody is hidden")
-
-
 @damage_by(each_image)
 def hidden_people_left_out(image):
     image["counts"]["all"] -= len(image.pop("hidden", []))
