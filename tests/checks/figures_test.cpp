@@ -158,8 +158,7 @@ TEST(JobRules, RecordsAreThoseOfTheJob) {
                              {"environment.time_of_day", "10:00"},
                              {"frame.ev", 0.5}};
     damage(image);
-    return found_by(
-        [&](Findings& findings) { check_job(manifest, image, findings); });
+    return found_by([&](Findings& findings) { check_job(manifest, image, findings); });
   };
   EXPECT_THAT(faults([](formats::Image&) {}), IsEmpty());
   struct Damage {
