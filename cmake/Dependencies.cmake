@@ -53,6 +53,13 @@ find_path(IGNITION_UTILS_INCLUDE ignition/utils/ImplPtr.hh PATH_SUFFIXES ignitio
 target_include_directories(throng_sdformat SYSTEM INTERFACE
   "${SDFORMAT_INCLUDE}" "${IGNITION_MATH_INCLUDE}" "${IGNITION_UTILS_INCLUDE}")
 
+# The file for CMake names no target.
+add_library(throng_embree INTERFACE)
+find_library(EMBREE_LIBRARY embree3 REQUIRED)
+find_path(EMBREE_INCLUDE embree3/rtcore.h REQUIRED)
+target_link_libraries(throng_embree INTERFACE "${EMBREE_LIBRARY}")
+target_include_directories(throng_embree SYSTEM INTERFACE "${EMBREE_INCLUDE}")
+
 # Camera files of ROS, OpenCV and Kalibr.
 find_package(yaml-cpp 0.7 REQUIRED)
 add_library(throng_yaml INTERFACE)

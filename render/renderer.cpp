@@ -12,6 +12,7 @@
 #include "render/gl/shadow_map.h"
 #include "render/gl/surface_target.h"
 #include "render/gl/target.h"
+#include "render/light/place_light.h"
 #include "render/passes/airframe_pass.h"
 #include "render/passes/contact_pass.h"
 #include "render/passes/prop_pass.h"
@@ -22,9 +23,9 @@
 #include "render/passes/still_surfaces.h"
 #include "render/people/people_in_view.h"
 #include "render/people/people_pass.h"
-#include "render/scenery/lamps.h"
 #include "render/scenery/lighting.h"
 #include "render/scenery/metering.h"
+#include "render/scenery/place_meshes.h"
 #include "render/scenery/surface_classes.h"
 #include "render/truth/objects_in_view.h"
 #include "render/truth/people_coverage.h"
@@ -115,6 +116,8 @@ struct Renderer::State {
   Daylight daylight;
   Eigen::AlignedBox2d ground;
   double tallest;
+  PlaceMeshes meshes;  ///< until they are on the device
+  ProbeGrid air;       ///< the light for what moves
   SceneryPass place;
   PropPass props;
   AirframePass airframes;
@@ -122,7 +125,6 @@ struct Renderer::State {
   PeoplePass people_pass;
   SkyPass sky;
   SmokePass smoke;
-  std::optional<LampMap> lamp_map;  ///< after sunset
   ShadowMap shadow_map;
   ShadowMap metering_shadows;
   std::vector<Vehicle> vehicles;
@@ -156,13 +158,15 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       daylight(render::daylight(environment)),
       ground(scenario.ground.min, scenario.ground.max),
       tallest(tallest_m(scenario)),
-      place(scenario, environment, quality, wanted.semantic),
-      props(scenario, light_words(environment, scenario.disasters), quality, wanted.semantic),
-      airframes(light_words(environment, scenario.disasters), quality),
+      meshes(place_meshes(scenario, wanted.semantic)),
+      air(light_place(scenario, environment, daylight, quality, wanted.light_folder, meshes)),
+      place(meshes, scenario, environment, quality),
+      props(meshes.props, light_words(environment, scenario.disasters), quality),
+      airframes(light_words(environment, scenario.disasters), quality, air),
       contacts(scenario, daylight),
-      people_pass(people, quality, light_words(environment, scenario.disasters), color_apart),
+      people_pass(people, air, quality, light_words(environment, scenario.disasters), color_apart),
       sky(environment),
-      smoke(environment, scenario.disasters),
+      smoke(environment, scenario.disasters, air),
       shadow_map(quality.shadow_texels),
       metering_shadows(quality.shadow_texels / kShadowTexelsPerMeteringTexel),
       view_buffer(make_buffer()),
@@ -173,7 +177,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
   // counter-clockwise in the world is then clockwise in the window.
   glFrontFace(GL_CW);
   glDepthFunc(GL_GREATER);
-  if (daylight.lamps_on) lamp_map.emplace(scenario);
+  meshes = {};
   if (options.vehicles) vehicles = list_vehicles(scenario);
   check_gl("setting up");
 }
@@ -208,13 +212,12 @@ void Renderer::State::draw_light(const Scene& scene, const camera::Camera& camer
   const std::vector<Fire> fires =
       fires_at(environment, disasters, scene.time_s, camera.pose.center());
   const LightBlock light = light_block(
-      daylight, {area, ground, tallest, camera.pose.center(), scene.time_s, fires, exposure_gain});
+      daylight, {area, tallest, camera.pose.center(), scene.time_s, fires, exposure_gain});
   glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
   glEnable(GL_DEPTH_TEST);
   if (quality.shadow_texels > 0 && !daylight.dark) draw_shadows(scene, camera, area, shadows);
   shadows.bind();
-  if (lamp_map) lamp_map->bind();
 }
 
 const Frame& Renderer::State::draw_metered(const Scene& scene, const camera::Camera& camera) {

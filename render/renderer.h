@@ -1,6 +1,7 @@
 // Renders a scenario and its people by OpenGL through EGL, without a window.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -47,6 +48,8 @@ struct RenderOptions {
   /// Antialiasing by several samples per pixel (true) or by post-processing (false), for tests and
   /// comparisons. Default: by quality and device.
   std::optional<bool> multisample = std::nullopt;
+  /// Holds baked light for the processes of a job (render/light/light_store.h); empty: none does.
+  std::filesystem::path light_folder = {};
   /// Receives the profile, if not null; the renderer then waits for the device after every stage.
   StageClock* clock = nullptr;
 };

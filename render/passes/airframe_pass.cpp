@@ -1,12 +1,15 @@
 #include "render/passes/airframe_pass.h"
 
+#include <algorithm>
+
 #include "render/gl/shaders.h"
 #include "render/passes/prop_pass.h"
 
 namespace throng::render {
 
-AirframePass::AirframePass(std::string_view words, const QualitySettings& quality)
-    : words_(words), has_shadows_(quality.shadow_texels > 0) {}
+AirframePass::AirframePass(std::string_view words, const QualitySettings& quality,
+                           const ProbeGrid& air)
+    : air_(air), words_(words), has_shadows_(quality.shadow_texels > 0) {}
 
 void AirframePass::prepare() {
   if (is_prepared_) return;
@@ -31,6 +34,12 @@ void AirframePass::draw(const std::vector<DroneInstance>& drones, const camera::
     const auto base = static_cast<std::uint32_t>(vertices.size());
     vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     for (const std::uint32_t index : mesh.indices) indices.push_back(base + index);
+    for (std::size_t i = base; i < vertices.size(); ++i) {
+      PropVertex& vertex = vertices[i];
+      const LightField light = air_.at(Eigen::Vector3f(vertex.position.data()));
+      const Eigen::Array3f received = light.received(Eigen::Vector3f(vertex.normal.data()));
+      std::copy_n(received.data(), 3, vertex.light.data());
+    }
   }
   if (indices.empty()) return;
   prepare();

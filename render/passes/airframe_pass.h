@@ -7,6 +7,7 @@
 
 #include "camera/camera.h"
 #include "render/gl/gl_objects.h"
+#include "render/light/probe_grid.h"
 #include "render/props/airframe_mesh.h"
 #include "spec/render/quality.h"
 
@@ -14,9 +15,9 @@ namespace throng::render {
 
 class AirframePass {
  public:
-  /// `words` are light_words() of the environment. The current context must stay current in all
-  /// calls.
-  AirframePass(std::string_view words, const QualitySettings& quality);
+  /// `words` are light_words() of the environment. Drones take the light of `air`, which must
+  /// outlive this object. The current context must stay current in all calls.
+  AirframePass(std::string_view words, const QualitySettings& quality, const ProbeGrid& air);
 
   /// Expects the same bindings as SceneryPass::draw(). Drones cast no shadows, since the sun's
   /// width blurs them at usual heights.
@@ -25,6 +26,7 @@ class AirframePass {
  private:
   void prepare();
 
+  const ProbeGrid& air_;
   std::string words_;
   bool has_shadows_;
   bool is_prepared_ = false;  ///< false until a drone is in view, as never in jobs with one drone

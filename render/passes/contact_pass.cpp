@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 constexpr double kMinSizePx = 48;  // standing height of people who still get a rim: it costs as
                                    // much as they do, and shows as a few pixels
 constexpr double kPersonReachM = 0.5;
-constexpr double kLampReachM = 14;  // farther lamps cast no visible shadow
+constexpr double kShadowReachM = 14;  // farther lamps cast no visible shadow
 constexpr double kTypicalStatureM = 1.7;
 
 /// A prop's part that touches the ground or nearly does: what it hides the sky from.
@@ -120,7 +120,7 @@ void ContactPass::add_lamp_shadows(const PersonInstance& person) {
   const Vector2d foot = person.position.head<2>().cast<double>();
   for (const Lamp& lamp : lamps_) {
     const Vector2d away = foot - lamp.position.head<2>();
-    if (away.norm() > kLampReachM || (away.dot(lamp.away) <= 0 && !lamp.away.isZero())) continue;
+    if (away.norm() > kShadowReachM || (away.dot(lamp.away) <= 0 && !lamp.away.isZero())) continue;
     const double square = away.squaredNorm() + lamp.position.z() * lamp.position.z();
     shining.push_back({away, lamp.position.z(),
                        lamp.strength * lamp.position.z() / (square * std::sqrt(square))});

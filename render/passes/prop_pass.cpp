@@ -4,15 +4,9 @@
 #include <bit>
 #include <cstddef>
 
-#include "render/frame/frame.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
 #include "render/props/leaf_sprites.h"
-#include "render/props/mesh_file.h"
-#include "render/scenery/far_land.h"
-#include "render/scenery/hedges.h"
-#include "render/scenery/rubble.h"
-#include "render/scenery/surface_classes.h"
 
 namespace throng::render {
 
@@ -61,8 +55,9 @@ Texture make_leaf_sprites() {
 
 }  // namespace
 
-PropPass::Item& PropPass::add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
-                              std::vector<std::uint32_t>& indices) {
+void PropPass::add(const PlacedProp& prop, std::vector<PropVertex>& vertices,
+                   std::vector<std::uint32_t>& indices) {
+  const PropMesh& mesh = prop.mesh;
   Eigen::AlignedBox3d bounds;
   for (const PropVertex& vertex : mesh.vertices) {
     bounds.extend(Eigen::Vector3f(vertex.position.data()).cast<double>());
@@ -74,9 +69,11 @@ PropPass::Item& PropPass::add(const PropMesh& mesh, bool closed, std::vector<Pro
   item.radius_m = 0.5 * bounds.diagonal().norm();
   item.solid = append(mesh, false, base, indices);
   item.leaves = append(mesh, true, base, indices);
-  item.closed = closed;
+  item.closed = prop.closed;
+  item.casts = prop.casts;
+  item.is_backdrop = prop.is_backdrop;
+  item.from_s = prop.from_s;
   vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-  return item;
 }
 
 VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
@@ -86,54 +83,17 @@ VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
                      {1, 3, GL_FLOAT, false, offsetof(PropVertex, normal)},
                      {2, 2, GL_FLOAT, false, offsetof(PropVertex, card)},
                      {3, 4, GL_UNSIGNED_BYTE, true, offsetof(PropVertex, paint)},
-                     {4, 1, GL_UNSIGNED_INT, false, offsetof(PropVertex, id)}});
+                     {4, 1, GL_UNSIGNED_INT, false, offsetof(PropVertex, id)},
+                     {5, 3, GL_FLOAT, false, offsetof(PropVertex, light)}});
   glVertexArrayElementBuffer(array.name(), indices.name());
   return array;
 }
 
-void PropPass::add_dressing(const world::Scenario& scenario, bool semantic,
-                            std::vector<PropVertex>& vertices,
-                            std::vector<std::uint32_t>& indices) {
-  std::vector<Eigen::AlignedBox2d> taken;
-  for (std::size_t i = 0; i < scenario.meshes.size(); ++i) {
-    const Eigen::AlignedBox3d& box = items_.at(scenario.props.size() + i).box;
-    taken.emplace_back(box.min().head<2>(), box.max().head<2>());
-  }
-  for (const PropMesh& mesh : hedge_leaves(scenario, semantic)) {
-    add(mesh, true, vertices, indices).casts = false;
-  }
-  for (const PropMesh& mesh : far_land(scenario, taken)) {
-    Item& item = add(mesh, true, vertices, indices);
-    item.casts = false;
-    item.is_backdrop = true;
-  }
-}
-
-PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
-                   const QualitySettings& quality, bool semantic) {
+PropPass::PropPass(const std::vector<PlacedProp>& props, std::string_view words,
+                   const QualitySettings& quality) {
   std::vector<PropVertex> vertices;
   std::vector<std::uint32_t> indices;
-  std::uint32_t id = kIdProp;
-  const auto id_of = [&](world::SemanticClass value) {
-    return semantic ? id_with_class(id, value) : id;
-  };
-  for (const world::Prop& prop : scenario.props) {
-    add(prop_shape(prop, id_of(world::semantic_class(prop.kind))), true, vertices, indices);
-    ++id;
-  }
-  for (const world::PlacedMesh& mesh : scenario.meshes) {
-    add(mesh_from_file(mesh, id_of(mesh.semantic_class)), false, vertices, indices);
-    ++id;
-  }
-  for (const world::Disaster& disaster : scenario.disasters) {
-    const std::vector<RubblePiece> pieces =
-        make_rubble(disaster, id_of(world::SemanticClass::rubble));
-    for (const RubblePiece& piece : pieces) {
-      add(piece.mesh, true, vertices, indices).from_s = piece.from_s;
-    }
-    if (!pieces.empty()) ++id;
-  }
-  add_dressing(scenario, semantic, vertices, indices);
+  for (const PlacedProp& prop : props) add(prop, vertices, indices);
   if (items_.empty()) return;
   vertices_ = make_buffer(vertices);
   indices_ = make_buffer(indices);

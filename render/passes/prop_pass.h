@@ -1,5 +1,5 @@
 // Renders props (trees, benches, lamp posts, cars, ...), users' meshes, rubble, the leaves of
-// hedges and what stands on the land beyond the scenario.
+// hedges and what stands on the land beyond the scenario (PlaceMeshes::props).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,10 +9,9 @@
 
 #include "render/frame/view.h"
 #include "render/gl/gl_objects.h"
-#include "render/props/prop_shapes.h"
-#include "render/scenery/scenery.h"
+#include "render/props/prop_mesh.h"
+#include "render/scenery/place_meshes.h"
 #include "spec/render/quality.h"
-#include "world/scenario.h"
 
 namespace throng::render {
 
@@ -21,10 +20,9 @@ VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices);
 
 class PropPass {
  public:
-  /// `words` are light_words() of the environment; `semantic`: ids contain classes
-  /// (render/scenery/surface_classes.h). Throws InputError for a mesh file that cannot be read.
-  PropPass(const world::Scenario& scenario, std::string_view words, const QualitySettings& quality,
-           bool semantic);
+  /// `words` are light_words() of the environment.
+  PropPass(const std::vector<PlacedProp>& props, std::string_view words,
+           const QualitySettings& quality);
 
   /// Draws the props in view at a time of the run. Expects the same bindings as
   /// SceneryPass::draw().
@@ -58,14 +56,10 @@ class PropPass {
     double from_s = 0;         ///< absent before this time
   };
   /// Appends a mesh to `vertices` and `indices`.
-  Item& add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
-            std::vector<std::uint32_t>& indices);
+  void add(const PlacedProp& prop, std::vector<PropVertex>& vertices,
+           std::vector<std::uint32_t>& indices);
   void draw_with(const Program& solid, const Program& leaves, const ClipPlanes& planes,
                  double time_s) const;
-  /// Appends the leaves of hedges, whose walls throw their shadows, and the land beyond, whose
-  /// shadows nobody sees.
-  void add_dressing(const world::Scenario& scenario, bool semantic,
-                    std::vector<PropVertex>& vertices, std::vector<std::uint32_t>& indices);
   /// Parts of the backdrop that may be in view.
   std::vector<const Item*> backdrop_in(const ClipPlanes& planes) const;
   void draw_ranges(const Program& program, const std::vector<const Item*>& items,

@@ -10,7 +10,6 @@
 #include "render/scenery/ground_texture.h"
 #include "render/scenery/land_pattern.h"
 #include "render/scenery/lighting.h"
-#include "render/scenery/scenery_classes.h"
 
 namespace throng::render {
 
@@ -53,8 +52,7 @@ Program make_scenery_program(std::string_view words, std::string_view surface,
 constexpr std::string_view kWideFilter = "#define WIDE_FILTER\n";
 constexpr std::string_view kTextured = "#define TEXTURED\n";
 constexpr std::string_view kNoPuddles = "#define NO_PUDDLES\n";
-/// Grass and earth follow no grid, so that a second, turned look-up hides how their texture
-/// repeats; at their edges there is bare soil, or grass grows in.
+/// At the edges of grass and earth there is bare soil, or grass grows in.
 constexpr std::string_view kGrass =
     "#define NO_PUDDLES\n#define EDGE_ALBEDO vec3(0.19, 0.155, 0.10)\n";
 constexpr std::string_view kDirt = "#define EDGE_ALBEDO vec3(0.115, 0.155, 0.052)\n";
@@ -92,22 +90,17 @@ void tell_place(const Program& program, const world::Scenario& scenario) {
   }
 }
 
-/// The mesh, its surfaces classified if wanted.
-const SceneryMesh& with_classes(bool wanted, const world::Scenario& scenario,
-                                const std::vector<GroundLayer>& layers, SceneryMesh& mesh) {
-  if (wanted) add_classes(scenario, layers, mesh);
-  return mesh;
-}
-
 }  // namespace
 
-SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& environment,
-                         const QualitySettings& quality, bool semantic)
-    : mesh_(scenery_mesh(scenario)),
-      layers_(add_ground_layers(
-          scenario, [&](const Eigen::Vector2d& p) { return openness_at(scenario, p); }, mesh_)),
-      vertices_(make_buffer(with_classes(semantic, scenario, layers_, mesh_).vertices)),
-      indices_(make_buffer(mesh_.indices)),
+SceneryPass::SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scenario,
+                         const Environment& environment, const QualitySettings& quality)
+    : wall_range_(meshes.scenery.walls),
+      roof_range_(meshes.scenery.roofs),
+      ground_range_(meshes.scenery.ground),
+      surroundings_range_(meshes.scenery.surroundings),
+      layers_(meshes.layers),
+      vertices_(make_buffer(meshes.scenery.vertices)),
+      indices_(make_buffer(meshes.scenery.indices)),
       array_(make_vertex_array()),
       material_(scenario.ground_material),
       shadow_(make_program({shader_light, embedded::shader_scenery_shadow_vert}, {})),
@@ -128,7 +121,7 @@ SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& env
                     {{0, 3, GL_FLOAT, false, offsetof(SceneryVertex, position)},
                      {1, 3, GL_FLOAT, false, offsetof(SceneryVertex, normal)},
                      {2, 4, GL_FLOAT, false, offsetof(SceneryVertex, local)},
-                     {3, 1, GL_FLOAT, false, offsetof(SceneryVertex, openness)},
+                     {3, 3, GL_FLOAT, false, offsetof(SceneryVertex, light)},
                      {4, 1, GL_UNSIGNED_INT, false, offsetof(SceneryVertex, id)},
                      {5, 1, GL_FLOAT, false, offsetof(SceneryVertex, facade)}});
   glVertexArrayElementBuffer(array_.name(), indices_.name());
@@ -176,28 +169,28 @@ void SceneryPass::draw_range(const Program& program, const Range& range) const {
 void SceneryPass::draw() const {
   glEnable(GL_CULL_FACE);
   glBindVertexArray(array_.name());
-  draw_range(walls_, mesh_.walls);
-  draw_range(roofs_, mesh_.roofs);
+  draw_range(walls_, wall_range_);
+  draw_range(roofs_, roof_range_);
   for (const GroundLayer& layer : layers_) draw_ground(layer.material, layer.range);
-  draw_ground(material_, mesh_.ground);
-  draw_ground(std::string(kPlain), mesh_.surroundings);
+  draw_ground(material_, ground_range_);
+  draw_ground(std::string(kPlain), surroundings_range_);
 }
 
 void SceneryPass::draw_ids() const {
   glEnable(GL_CULL_FACE);
   glBindVertexArray(array_.name());
-  draw_range(ids_, mesh_.walls);
-  draw_range(ids_, mesh_.roofs);
+  draw_range(ids_, wall_range_);
+  draw_range(ids_, roof_range_);
   for (const GroundLayer& layer : layers_) draw_range(ids_, layer.range);
-  draw_range(ids_, mesh_.ground);
-  draw_range(ids_, mesh_.surroundings);
+  draw_range(ids_, ground_range_);
+  draw_range(ids_, surroundings_range_);
 }
 
 void SceneryPass::draw_shadow() const {
   glDisable(GL_CULL_FACE);
   glBindVertexArray(array_.name());
-  draw_range(shadow_, mesh_.walls);
-  draw_range(shadow_, mesh_.roofs);
+  draw_range(shadow_, wall_range_);
+  draw_range(shadow_, roof_range_);
 }
 
 }  // namespace throng::render

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "render/gl/gl_objects.h"
-#include "render/scenery/ground_layers.h"
-#include "render/scenery/scenery.h"
+#include "render/scenery/place_meshes.h"
 #include "spec/render/environment.h"
 #include "spec/render/quality.h"
 #include "world/scenario.h"
@@ -17,10 +16,9 @@ namespace throng::render {
 
 class SceneryPass {
  public:
-  /// `semantic`: ids contain classes (render/scenery/surface_classes.h). Throws InputError if the
-  /// scenario names an unknown ground material.
-  SceneryPass(const world::Scenario& scenario, const Environment& environment,
-              const QualitySettings& quality, bool semantic);
+  /// Throws InputError if the scenario names an unknown ground material.
+  SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scenario,
+              const Environment& environment, const QualitySettings& quality);
 
   /// Draws ground and buildings. Expects the View and Light blocks, the shadow map and the target
   /// to be bound.
@@ -44,7 +42,10 @@ class SceneryPass {
   void draw_ground(const std::string& material, const Range& range) const;
   void draw_range(const Program& program, const Range& range) const;
 
-  SceneryMesh mesh_;
+  Range wall_range_;
+  Range roof_range_;
+  Range ground_range_;
+  Range surroundings_range_;
   std::vector<GroundLayer> layers_;  ///< uppermost first
   Buffer vertices_;
   Buffer indices_;

@@ -40,8 +40,10 @@ Eigen::Vector2d drift_mps(const Environment& environment) {
 
 }  // namespace
 
-SmokePass::SmokePass(const Environment& environment, std::vector<world::Disaster> disasters)
-    : environment_(environment),
+SmokePass::SmokePass(const Environment& environment, std::vector<world::Disaster> disasters,
+                     const ProbeGrid& air)
+    : air_(air),
+      environment_(environment),
       disasters_(std::move(disasters)),
       instances_(make_buffer()),
       array_(make_vertex_array()),
@@ -55,7 +57,9 @@ SmokePass::SmokePass(const Environment& environment, std::vector<world::Disaster
   describe_vertices(array_, 0, instances_, sizeof(Puff), 1,
                     {{0, 4, GL_FLOAT, false, offsetof(Puff, place)},
                      {1, 4, GL_FLOAT, false, offsetof(Puff, look)},
-                     {2, 1, GL_FLOAT, false, offsetof(Puff, kind)}});
+                     {2, 1, GL_FLOAT, false, offsetof(Puff, kind)},
+                     {3, 3, GL_FLOAT, false, offsetof(Puff, above)},
+                     {4, 3, GL_FLOAT, false, offsetof(Puff, below)}});
 }
 
 SmokePass::Source SmokePass::smoke_source(const world::Disaster& disaster, double time_s) {
@@ -170,6 +174,13 @@ void SmokePass::upload(const Scene& scene, const camera::Camera& camera) {
   std::stable_sort(puffs_.begin(), puffs_.end(),
                    [](const Puff& a, const Puff& b) { return a.depth_m > b.depth_m; });
   if (puffs_.empty()) return;
+  for (Puff& puff : puffs_) {
+    const LightField light = air_.at(Eigen::Vector3f(puff.place.data()));
+    const Eigen::Array3f above = light.received(Eigen::Vector3f::UnitZ());
+    const Eigen::Array3f below = light.received(-Eigen::Vector3f::UnitZ());
+    std::copy_n(above.data(), 3, puff.above.data());
+    std::copy_n(below.data(), 3, puff.below.data());
+  }
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(puffs_.size() * sizeof(Puff)),
                     puffs_.data(), GL_STREAM_DRAW);
 }

@@ -4,7 +4,9 @@
 #include <array>
 #include <vector>
 
+#include "render/frame/frame.h"
 #include "render/gl/gl_objects.h"
+#include "render/light/probe_grid.h"
 #include "render/props/scene.h"
 #include "spec/render/environment.h"
 #include "world/disasters.h"
@@ -15,7 +17,9 @@ class SmokePass {
  public:
   /// Smoke rises from the growing disasters or, in a scenario without described disasters, from all
   /// Scene::dangers at all times.
-  SmokePass(const Environment& environment, std::vector<world::Disaster> disasters);
+  /// It takes the light of `air`, which must outlive this object.
+  SmokePass(const Environment& environment, std::vector<world::Disaster> disasters,
+            const ProbeGrid& air);
 
   /// Changes only colors. Expects the View and Light blocks and the target to be bound, and all
   /// solid objects to be rendered. Does nothing without smoke.
@@ -30,8 +34,10 @@ class SmokePass {
     std::array<float, 4> place{};  ///< center and radius (m)
     /// Linear albedo and opacity; of flames: heat (0 to 1), 0, 0 and opacity + 2.
     std::array<float, 4> look{};
-    float depth_m = 0;  ///< the camera's z
-    float kind = 0;     ///< HazardMatter
+    float depth_m = 0;             ///< the camera's z
+    float kind = 0;                ///< HazardMatter
+    std::array<float, 3> above{};  ///< light from above and from below
+    std::array<float, 3> below{};
   };
   /// Shared properties of the puffs of one hazard.
   struct Source {
@@ -55,6 +61,7 @@ class SmokePass {
   void upload(const Scene& scene, const camera::Camera& camera);
   void draw_discs(const Program& program) const;
 
+  const ProbeGrid& air_;
   Environment environment_;
   std::vector<world::Disaster> disasters_;
   std::vector<Puff> puffs_;  ///< puffs of the current frame

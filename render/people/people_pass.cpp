@@ -28,8 +28,9 @@ struct Instance {
   std::array<std::uint32_t, 4> tints;
   std::array<std::int32_t, 2> shift;
   std::array<std::uint32_t, 2> facing_bits;  ///< cosine and sine of the heading
+  std::array<std::uint32_t, 6> light;        ///< the LightField, half floats
 };
-static_assert(sizeof(Instance) == 60, "less than 64 bytes for each person and frame");
+static_assert(sizeof(Instance) == 84, "less than 100 bytes for each person and frame");
 
 /// Per-instance data of people's motion to the next frame.
 struct NextInstance {
@@ -67,7 +68,9 @@ VertexArray make_person_array(const PeopleMeshes& meshes, const Buffer& instance
                     {{4, 3, GL_FLOAT, false, offsetof(Instance, position)},
                      {5, 4, GL_UNSIGNED_INT, false, offsetof(Instance, palette_a)},
                      {6, 4, GL_UNSIGNED_INT, false, offsetof(Instance, tints)},
-                     {7, 4, GL_UNSIGNED_INT, false, offsetof(Instance, shift)}});
+                     {7, 4, GL_UNSIGNED_INT, false, offsetof(Instance, shift)},
+                     {11, 4, GL_UNSIGNED_INT, false, offsetof(Instance, light)},
+                     {12, 2, GL_UNSIGNED_INT, false, offsetof(Instance, light) + 16}});
   glVertexArrayElementBuffer(array.name(), meshes.indices.name());
   return array;
 }
@@ -97,6 +100,19 @@ std::array<std::uint32_t, 4> packed(const std::array<skinning::Rgb, skinning::kT
   return words;
 }
 
+/// Pairs of half floats: the even light, then the vector of each color.
+std::array<std::uint32_t, 6> packed(const LightField& field) {
+  std::array<float, 12> values{};
+  std::copy_n(field.even.data(), 3, values.begin());
+  std::copy_n(field.toward.data(), 9, values.begin() + 3);
+  std::array<std::uint32_t, 6> words{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::uint32_t half = Eigen::half_impl::float_to_half_rtne(values.at(i)).x;
+    words.at(i / 2) |= half << (16U * (i % 2));
+  }
+  return words;
+}
+
 /// Without textured people no level has textures; shadows take the last level by its corners.
 Packing choose_packing(const QualitySettings& quality) {
   constexpr std::size_t kAll = 99;
@@ -111,6 +127,9 @@ std::uint64_t largest_palettes() {
   return static_cast<std::uint64_t>(texels) * sizeof(DeviceBone);
 }
 
+/// From a person's feet to where its light is taken.
+const Eigen::Vector3f kHips(0, 0, 1);
+
 /// A texture's look-ups read whole texels, which a software driver does four times as fast as it
 /// reads a storage buffer.
 Texture make_buffer_texture(GLenum format, const Buffer& buffer) {
@@ -121,9 +140,10 @@ Texture make_buffer_texture(GLenum format, const Buffer& buffer) {
 
 }  // namespace
 
-PeoplePass::PeoplePass(const skinning::Population& population, const QualitySettings& quality,
-                       std::string_view words, bool color_apart)
-    : palettes_per_character_(population.palettes_per_character),
+PeoplePass::PeoplePass(const skinning::Population& population, const ProbeGrid& air,
+                       const QualitySettings& quality, std::string_view words, bool color_apart)
+    : air_(air),
+      palettes_per_character_(population.palettes_per_character),
       meshes_(people_meshes(population, choose_packing(quality))),
       palettes_(make_buffer(device_palettes(population, largest_palettes()))),
       palette_texels_(make_buffer_texture(GL_RGBA32UI, palettes_)),
@@ -192,7 +212,7 @@ void PeoplePass::load_textures(const skinning::Population& population) {
   const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   upload(layers - 1, std::vector<std::uint8_t>(texels * 4, 255));  // parts without a texture
   glGenerateTextureMipmap(name);
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
 }
 
 std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance> people,
@@ -222,7 +242,8 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
                          packed(person.appearance.tint),
                          draw.shift,
                          {std::bit_cast<std::uint32_t>(std::cos(person.yaw_rad)),
-                          std::bit_cast<std::uint32_t>(std::sin(person.yaw_rad))}});
+                          std::bit_cast<std::uint32_t>(std::sin(person.yaw_rad))},
+                         packed(air_.at(person.position + kHips))});
   }
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
                     instances.data(), GL_STREAM_DRAW);

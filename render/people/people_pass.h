@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/gl/gl_objects.h"
+#include "render/light/probe_grid.h"
 #include "render/people/people_meshes.h"
 #include "render/props/scene.h"
 #include "skinning/population.h"
@@ -39,10 +40,11 @@ struct PersonDraw {
 /// and Light blocks, the shadow map and the target to be bound.
 class PeoplePass {
  public:
-  /// `words` are light_words() of the environment. With `color_apart` images are rendered on their
-  /// own, and Purpose::truth writes no colors.
-  PeoplePass(const skinning::Population& population, const QualitySettings& quality,
-             std::string_view words, bool color_apart);
+  /// People take the light of `air`, which must outlive this object. `words` are light_words() of
+  /// the environment. With `color_apart` images are rendered on their own, and Purpose::truth
+  /// writes no colors.
+  PeoplePass(const skinning::Population& population, const ProbeGrid& air,
+             const QualitySettings& quality, std::string_view words, bool color_apart);
 
   /// truth also writes the people's whole silhouettes, visible or occluded, to the
   /// atlas that is bound to image unit 0 (render/truth/silhouettes.h).
@@ -83,6 +85,7 @@ class PeoplePass {
   static void draw_image(const std::vector<Batch>& batches, const ImagePrograms& programs);
   void bind(const VertexArray& array) const;
 
+  const ProbeGrid& air_;
   std::uint32_t palettes_per_character_;
   PeopleMeshes meshes_;
   Buffer palettes_;

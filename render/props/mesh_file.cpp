@@ -47,7 +47,7 @@ void append(const aiMesh& mesh, const std::array<std::uint8_t, 4>& paint,
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const Vector3d normal = (place.linear() * upright(mesh.mNormals[i])).normalized();
     all.vertices.push_back(
-        {three(place * upright(mesh.mVertices[i])), three(normal), {0, 0}, paint, id});
+        {three(place * upright(mesh.mVertices[i])), three(normal), {0, 0}, paint, id, {}});
   }
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];

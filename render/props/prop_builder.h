@@ -42,7 +42,11 @@ class PropBuilder {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       mesh_.vertices.push_back({three(prop_.scale * turned(corners[i]) +
                                       Eigen::Vector3d(prop_.position.x(), prop_.position.y(), 0)),
-                                three(turned(normals[i])), kCard[i], painted(paint, finish), id_});
+                                three(turned(normals[i])),
+                                kCard[i],
+                                painted(paint, finish),
+                                id_,
+                                {}});
     }
     mesh_.indices.insert(mesh_.indices.end(),
                          {first, first + 1, first + 2, first, first + 2, first + 3});

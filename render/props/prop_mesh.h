@@ -27,6 +27,7 @@ struct PropVertex {
   std::array<float, 2> card{};
   std::array<std::uint8_t, 4> paint{};  ///< linear albedo, then the Finish
   std::uint32_t id = 0;
+  std::array<float, 3> light{};  ///< as SceneryVertex::light
 };
 
 /// Triangles, counter-clockwise from outside; cards of leaves are visible from both sides.

@@ -33,7 +33,7 @@ constexpr double kMinCellM = 3;
 
 class LayerBuilder {
  public:
-  LayerBuilder(const Openness& openness, SceneryMesh& mesh) : openness_(openness), mesh_(mesh) {}
+  explicit LayerBuilder(SceneryMesh& mesh) : mesh_(mesh) {}
 
   std::uint32_t indices() const { return static_cast<std::uint32_t>(mesh_.indices.size()); }
 
@@ -61,16 +61,16 @@ class LayerBuilder {
           {{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(height_m)},
            {0, 0, 1},
            {ground_tone_at(p), outline_.empty() ? 0 : static_cast<float>(1 + inside_m(p))},
-           openness_(p),
            kIdGround,
-           0});
+           0,
+           {}});
     }
     for (std::uint32_t i = 2; i < polygon.size(); ++i) {
       mesh_.indices.insert(mesh_.indices.end(), {first, first + i - 1, first + i});
     }
   }
 
-  /// The same cut along a grid, so that openness is sampled within it.
+  /// The same cut along a grid, so that vertices know how far they are from the outline.
   void add_in_cells(const Polygon& polygon, double height_m) {
     constexpr double kMaxCells = 48;
     Eigen::AlignedBox2d bounds;
@@ -96,7 +96,6 @@ class LayerBuilder {
     return outline_.empty() ? 0 : std::max(0.0, -geometry::signed_distance_to(outline_, point));
   }
 
-  const Openness& openness_;
   SceneryMesh& mesh_;
   std::span<const Vector2d> outline_;
 };
@@ -207,9 +206,8 @@ std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t
   return parts;
 }
 
-std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
-                                           const Openness& openness, SceneryMesh& mesh) {
-  LayerBuilder builder(openness, mesh);
+std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario, SceneryMesh& mesh) {
+  LayerBuilder builder(mesh);
   std::vector<GroundLayer> layers;
   const auto layer = [&](const std::string& material, auto&& add) {
     const std::uint32_t first = builder.indices();

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,9 +17,6 @@ struct GroundLayer {
   Range range;
 };
 
-/// Returns the share of the sky's light at a point of the ground.
-using Openness = std::function<float(const Eigen::Vector2d&)>;
-
 /// The parts of a scenario's streets and paths that go on beyond the edge of its ground, of the
 /// area with this index: convex polygons, counter-clockwise (m).
 std::vector<std::vector<Eigen::Vector2d>> streets_beyond(const world::Scenario& scenario,
@@ -28,7 +24,6 @@ std::vector<std::vector<Eigen::Vector2d>> streets_beyond(const world::Scenario& 
 
 /// Appends the layers of a scenario to the mesh, the uppermost first, so that covered ground need
 /// not be shaded. All are below people's soles (kAboveGround, 2 mm).
-std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
-                                           const Openness& openness, SceneryMesh& mesh);
+std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario, SceneryMesh& mesh);
 
 }  // namespace throng::render

@@ -1,9 +1,9 @@
 #include "render/scenery/lamps.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "base/geometry/polygon.h"
 #include "render/props/prop_shapes.h"
 
 namespace throng::render {
@@ -13,28 +13,8 @@ namespace {
 constexpr double kHeightM = 4.2;
 constexpr double kSpacingM = 12;
 constexpr double kMinWallM = 4;
-constexpr double kReachM = 26;
-constexpr double kPlaneM = 1;  // height at which the light is taken
 // About 1000 candela over 54 000 lux: 57 lux on the ground below a lamp 4.2 m up.
 constexpr double kStrengthM2 = 1000.0 / 54'000;
-constexpr int kTexels = 256;
-
-bool crosses(const world::Building& building, const Eigen::Vector2d& from,
-             const Eigen::Vector2d& to) {
-  const std::vector<Eigen::Vector2d>& corners = building.footprint;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d& a = corners[i];
-    const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
-    if (geometry::segments_cross(a, b, from, to)) return true;
-  }
-  return false;
-}
-
-bool is_hidden(const world::Scenario& scenario, const Lamp& lamp, const Eigen::Vector2d& point) {
-  const Eigen::Vector2d from = lamp.position.head<2>();
-  return std::any_of(scenario.buildings.begin(), scenario.buildings.end(),
-                     [&](const auto& building) { return crosses(building, from, point); });
-}
 
 /// Adds the lamps of a prop, where its shape has them (render/props).
 void add_prop_lamps(const world::Prop& prop, std::vector<Lamp>& lamps) {
@@ -90,44 +70,11 @@ std::vector<Lamp> all_lamps(const world::Scenario& scenario) {
   return lamps;
 }
 
-Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector<Lamp>& lamps,
-                              const Eigen::Vector2d& point) {
-  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-  for (const Lamp& lamp : lamps) {
-    const Eigen::Vector3d to_lamp = lamp.position - Eigen::Vector3d(point.x(), point.y(), kPlaneM);
-    const double distance = to_lamp.norm();
-    if (distance > kReachM || lamp.away.dot(to_lamp.head<2>()) > 0.05) continue;
-    if (is_hidden(scenario, lamp, point)) continue;
-    const Eigen::Vector3d direction = to_lamp / distance;
-    // Street lamps throw their light wide, and none above the horizontal.
-    const double down = std::sqrt(std::max(direction.z(), 0.0));
-    const double rim = 1 - std::pow(distance / kReachM, 4);
-    const double strength = lamp.strength * kStrengthM2 * down * rim * rim / (distance * distance);
-    sum.head<3>() += strength * direction;
-    sum.w() += strength;
-  }
-  return sum.cast<float>();
+double lamp_strength(const Lamp& lamp, double distance_m, double up) {
+  // Street lamps throw their light wide, and none above the horizontal.
+  const double down = std::sqrt(std::max(up, 0.0));
+  const double rim = 1 - std::pow(distance_m / kLampReachM, 4);
+  return lamp.strength * kStrengthM2 * down * rim * rim / (distance_m * distance_m);
 }
-
-LampMap::LampMap(const world::Scenario& scenario)
-    : area_(scenario.ground.min, scenario.ground.max),
-      texture_(make_texture_2d(GL_RGBA16F, kTexels, kTexels)) {
-  const std::vector<Lamp> lamps = all_lamps(scenario);
-  std::vector<Eigen::Vector4f> texels;
-  texels.reserve(static_cast<std::size_t>(kTexels) * kTexels);
-  for (int row = 0; row < kTexels; ++row) {
-    for (int column = 0; column < kTexels; ++column) {
-      const Eigen::Array2d share((column + 0.5) / kTexels, (row + 0.5) / kTexels);
-      const Eigen::Vector2d point = area_.min().array() + share * area_.sizes().array();
-      texels.push_back(lamp_light_at(scenario, lamps, point));
-    }
-  }
-  const GLuint name = texture_.name();
-  glTextureSubImage2D(name, 0, 0, 0, kTexels, kTexels, GL_RGBA, GL_FLOAT, texels.data());
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-}
-
-void LampMap::bind() const { glBindTextureUnit(2, texture_.name()); }
 
 }  // namespace throng::render

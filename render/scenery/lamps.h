@@ -2,11 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <array>
 #include <vector>
 
-#include "render/gl/gl_objects.h"
 #include "world/scenario.h"
 
 namespace throng::render {
@@ -26,25 +23,11 @@ std::vector<Lamp> wall_lamps(const world::Scenario& scenario);
 /// The lamps on walls, on lamp posts, and in what is used at night: stalls, tents, kiosks, stages.
 std::vector<Lamp> all_lamps(const world::Scenario& scenario);
 
-/// Lamp light 1 m above a point of the ground, without lamps that buildings occlude: the sum of the
-/// unit directions to the lamps times their strengths, and the sum of their strengths, in the units
-/// of render/scenery/daylight.h.
-Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector<Lamp>& lamps,
-                              const Eigen::Vector2d& point);
+/// Farther than this a lamp lights nothing (m).
+inline constexpr double kLampReachM = 26;
 
-/// The light of a scenario's lamps as a texture over its ground.
-class LampMap {
- public:
-  explicit LampMap(const world::Scenario& scenario);
-
-  const Eigen::AlignedBox2d& area() const { return area_; }
-
-  /// Binds the texture for lamp_light() of shaders/light.glsl.
-  void bind() const;
-
- private:
-  Eigen::AlignedBox2d area_;
-  Texture texture_;
-};
+/// The light of a lamp on a surface that faces it, in the units of render/scenery/daylight.h, when
+/// nothing is between; `up` is the sine of the lamp's elevation seen from there.
+double lamp_strength(const Lamp& lamp, double distance_m, double up);
 
 }  // namespace throng::render

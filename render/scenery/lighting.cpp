@@ -125,7 +125,6 @@ LightBlock light_block(const Daylight& light, const LightFrame& frame) {
                         static_cast<float>(kSunRadius / light.direction.z())};
   block.zenith = four(light.zenith, frame.exposure_gain);
   block.lamps = four(light.lamps);
-  block.lamp_area = box_corners(frame.lamp_area);
   block.eye = four(frame.eye, frame.time_s);
   for (std::size_t i = 0; i < frame.fires.size(); ++i) {
     const Fire& fire = frame.fires[i];

@@ -45,7 +45,6 @@ struct LightBlock {
   std::array<float, 4> shadow_slope{};
   std::array<float, 4> zenith{};
   std::array<float, 4> lamps{};
-  std::array<float, 4> lamp_area{};
   std::array<float, 4> eye{};
   std::array<std::array<float, 4>, kMaxFires> fires{};
 };
@@ -53,7 +52,6 @@ struct LightBlock {
 /// The inputs of the Light block that depend on the frame.
 struct LightFrame {
   Eigen::AlignedBox2d shadow_area;  ///< result of shadow_area()
-  Eigen::AlignedBox2d lamp_area;    ///< LampMap::area()
   double tallest_m = 0;
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's center
   double time_s = 0;

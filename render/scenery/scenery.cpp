@@ -17,34 +17,16 @@ namespace throng::render {
 
 namespace {
 
-constexpr double kGroundCell = 2.0;      // m; openness is sampled at its corners
+constexpr double kGroundCellM = 4;       // refined where light varies (render/light/refine.h)
 constexpr double kSurroundingsM = 3000;  // how far the plain goes
 
 std::array<float, 3> three(double x, double y, double z) {
   return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
-/// Tangent of the elevation up to which a building hides the sky along a ray on the ground.
-double horizon_slope(const world::Building& building, const Eigen::Vector2d& from,
-                     const Eigen::Vector2d& direction) {
-  double slope = 0;
-  for (std::size_t i = 0; i < building.footprint.size(); ++i) {
-    const Eigen::Vector2d a = building.footprint[i] - from;
-    const Eigen::Vector2d edge =
-        building.footprint[(i + 1) % building.footprint.size()] - building.footprint[i];
-    const double across = geometry::cross(direction, edge);
-    if (std::abs(across) < 1e-9) continue;
-    const double along_ray = geometry::cross(a, edge) / across;
-    const double along_edge = geometry::cross(a, direction) / across;
-    if (along_ray < 0 || along_edge < 0 || along_edge > 1) continue;
-    slope = std::max(slope, building.height_m / std::max(along_ray, 0.05));
-  }
-  return slope;
-}
-
 /// Grid lines over [low, high], and one far away on each side.
 std::vector<double> grid_lines(double low, double high) {
-  const int cells = std::clamp(static_cast<int>(std::ceil((high - low) / kGroundCell)), 1, 128);
+  const int cells = std::clamp(static_cast<int>(std::ceil((high - low) / kGroundCellM)), 1, 128);
   std::vector<double> lines = {low - kSurroundingsM};
   for (int i = 0; i <= cells; ++i) lines.push_back(low + (high - low) * i / cells);
   lines.push_back(high + kSurroundingsM);
@@ -58,12 +40,8 @@ void add_ground(const world::Scenario& scenario, SceneryMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const double y : ys) {
     for (const double x : xs) {
-      mesh.vertices.push_back({three(x, y, 0),
-                               {0, 0, 1},
-                               {ground_tone_at({x, y})},
-                               openness_at(scenario, {x, y}),
-                               kIdGround,
-                               0});
+      mesh.vertices.push_back(
+          {three(x, y, 0), {0, 0, 1}, {ground_tone_at({x, y})}, kIdGround, 0, {}});
     }
   }
   const auto add_cells = [&](bool inside) {
@@ -100,9 +78,9 @@ void add_walls(const world::Building& building, std::uint32_t id, SceneryMesh& m
                                  three(along.y(), -along.x(), 0),
                                  {static_cast<float>(s), static_cast<float>(z),
                                   static_cast<float>(length), static_cast<float>(height)},
-                                 1,
                                  id,
-                                 static_cast<float>(building.facade)});
+                                 static_cast<float>(building.facade),
+                                 {}});
       }
     }
     mesh.indices.insert(mesh.indices.end(),
@@ -121,9 +99,9 @@ void add_roof(const world::Building& building, std::uint32_t id, SceneryMesh& me
                              {0, 0, 1},
                              {static_cast<float>(local.x()), static_cast<float>(local.y()),
                               static_cast<float>(size.x()), static_cast<float>(size.y())},
-                             1,
                              id,
-                             static_cast<float>(building.facade)});
+                             static_cast<float>(building.facade),
+                             {}});
   }
   for (const auto& triangle : geometry::triangulate(building.footprint)) {
     for (const std::uint32_t corner : triangle) mesh.indices.push_back(first + corner);
@@ -132,23 +110,6 @@ void add_roof(const world::Building& building, std::uint32_t id, SceneryMesh& me
 
 }  // namespace
 
-// Along each direction everything above the horizon, weighted by the cosine to the vertical.
-float openness_at(const world::Scenario& scenario, const Eigen::Vector2d& point) {
-  constexpr int kDirections = 16;
-  double sum = 0;
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2 * std::numbers::pi * (i + 0.5) / kDirections;
-    double slope = 0;
-    for (const world::Building& building : scenario.buildings) {
-      slope = std::max(slope, horizon_slope(building, point, {std::cos(angle), std::sin(angle)}));
-    }
-    sum += 1 / (1 + slope * slope);
-  }
-  // A corner inside a building would darken the whole cell in front of the wall.
-  return static_cast<float>(std::max(sum / kDirections, 0.35));
-}
-
-// Three octaves of smooth noise over squares of 23, 9 and 4 m.
 SceneryMesh scenery_mesh(const world::Scenario& scenario) {
   SceneryMesh mesh;
   const auto indices = [&] { return static_cast<std::uint32_t>(mesh.indices.size()); };

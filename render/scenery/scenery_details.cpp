@@ -36,9 +36,9 @@ SceneryVertex make_vertex(const Eigen::Vector3d& p, const Eigen::Vector3d& norma
            static_cast<float>(normal.z())},
           {static_cast<float>(local[0]), static_cast<float>(local[1]), static_cast<float>(local[2]),
            static_cast<float>(local[3])},
-          1,
           panel.id,
-          static_cast<float>(panel.look)};
+          static_cast<float>(panel.look),
+          {}};
 }
 
 void add_quad(const std::array<SceneryVertex, 4>& corners, SceneryMesh& mesh) {

@@ -18,9 +18,10 @@ struct SceneryVertex {
   /// coordinates from the corner of the roof's bounds, and their size (m). Ground:
   /// ground_tone_at(), then in wide areas 1 m and the distance to their outline (m), else 0.
   std::array<float, 4> local{};
-  float openness = 1;    ///< share of the sky's light that reaches the point, 0 to 1
   std::uint32_t id = 0;  ///< value in the id buffer
   float facade = 0;      ///< walls: value of world::Facade or WallLook
+  /// What a white surface receives here from sky, lamps and bounces (render/light/place_light.h).
+  std::array<float, 3> light{};
 };
 
 /// A range of indices of triangles that share a shader.

@@ -1,7 +1,7 @@
 // Ground of one material: with TEXTURED from its texture (render/scenery/ground_texture.h), else
 // ground_albedo comes from a ground_*.glsl.
 in vec3 world;
-in float openness;
+in vec3 ambient;
 in vec4 local;  // x: how bright the ground is here, compared with the material's mean; y: see SceneryVertex
 flat in uint id;
 
@@ -33,10 +33,8 @@ vec3 wet(vec3 radiance, float sky_share) {
   float fresnel = 0.02 + 0.98 * pow(1.0 - cosine, 5.0);
   vec3 mirrored = mix(light.haze.rgb, light.zenith.rgb, cosine) * (0.35 + 0.65 * sky_share);
 #ifdef LAMPS
-  // Lamps stand beyond the point where their mirror images lie, drawn out by ripples.
-  vec2 beyond = p - 1.6 * to_eye.xy / max(to_eye.z, 1.0);
-  float shining = texture(lamp_map, (beyond - light.lamp_area.xy) * light.lamp_area.zw).w;
-  mirrored += light.lamps.rgb * (0.35 * shining * shining);
+  // Mirror images of lamps, drawn out by ripples.
+  mirrored += 0.35 * ambient * ambient / max(light.lamps.rgb, 1e-6);
 #endif
   vec3 dark = radiance * mix(0.52, 0.30, puddle);
   return dark + mirrored * fresnel * mix(0.8, 1.8, puddle);
@@ -71,12 +69,9 @@ void main() {
   float burned = charred(world, 0.7 * noise(world.xy * 0.9) + 0.3 * noise(world.xy * 3.7));
   albedo = charcoal(albedo, burned);
 #endif
-  vec3 received = light.sky.rgb * openness;
+  vec3 received = ambient;
 #ifndef NO_SUN
   received += light.sun.rgb * (light.sun_direction.z * sunlit(world, 0.02));
-#endif
-#ifdef LAMPS
-  received += light.lamps.rgb * lamp_light(world, vec3(0.0, 0.0, 1.0));
 #endif
 #ifdef FIRES
   received += fire_light(world, vec3(0.0, 0.0, 1.0));
@@ -86,7 +81,7 @@ void main() {
   radiance += embers(world, burned, 0.6 * noise(world.xy * 2.9) + 0.4 * noise(world.xy * 8.3 + 5.0));
 #endif
 #ifdef WET
-  radiance = wet(radiance, openness);
+  radiance = wet(radiance, min(ambient.g / max(light.sky.g, 1e-6), 1.0));
 #endif
   color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;

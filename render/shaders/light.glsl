@@ -13,7 +13,6 @@ layout(std140, binding = 1) uniform Light {
   vec4 shadow_slope;
   vec4 zenith;         // color of the sky above; w: what the camera's metering makes of all light
   vec4 lamps;          // radiance of a white surface in one unit of lamp light
-  vec4 lamp_area;      // corner of the lamp map on the ground, then 1 / size (1/m)
   vec4 eye;            // the camera's center; w: time, s
   vec4 fires[kMaxFires];  // position on the ground, reach (m), light on a white surface in 1 m
 } light;
@@ -128,28 +127,6 @@ float sunlit(vec3 world, float bias_m) {
 #else
 float sunlit(vec3 world, float bias_m) { return sunlit_small(world, bias_m); }
 #endif
-#endif
-
-#ifdef LAMPS
-layout(binding = 2) uniform sampler2D lamp_map;
-
-// Lamp light on a surface, in units of lamp light. The map holds, 1 m above the ground, the sum of
-// the light's directions times its strengths, and of its strengths. Lamps shine downwards.
-float lamp_light(vec3 world, vec3 normal) {
-  vec4 seen = texture(lamp_map, (world.xy - light.lamp_area.xy) * light.lamp_area.zw);
-  // Light reflected by the ground and the walls reaches every side.
-  float facing = max(dot(seen.xyz, normal), 0.0) + 0.25 * max(seen.w - length(seen.xyz), 0.0) +
-                 0.16 * seen.w;
-  return facing * clamp(2.6 - 0.5 * world.z, 0.0, 1.0);
-}
-
-// The same among leaves, which throw light at each other: more of it from below, and higher up.
-float lamp_light_in_leaves(vec3 world, vec3 normal) {
-  vec4 seen = texture(lamp_map, (world.xy - light.lamp_area.xy) * light.lamp_area.zw);
-  float facing = 0.4 * max(dot(seen.xyz, normal), 0.0) + (0.12 - 0.06 * normal.z) * seen.w;
-  float height = clamp(1.9 - 0.32 * world.z, 0.0, 1.0);
-  return facing * (0.06 + 1.1 * height * height);
-}
 #endif
 
 #ifdef FIRES

@@ -6,10 +6,8 @@ in vec3 air;
 in vec2 uv;
 #else
 in vec4 world_sun;
-in vec3 uv_sky;
-#ifdef FIRES
-in vec3 warm;
-#endif
+in vec3 ambient;
+in vec2 uv;
 #endif
 flat in uvec4 surface;
 flat in uvec4 shaded;
@@ -26,29 +24,17 @@ vec3 linear_from_srgb(vec3 c) {
 }
 
 #ifdef LIT_CORNERS
-vec2 texture_place() { return uv; }
-
 vec3 seen(vec3 albedo) { return albedo * received + air; }
 #else
-vec2 texture_place() { return uv_sky.xy; }
-
 vec3 seen(vec3 albedo) {
-  vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, uv_sky.z);
-#ifdef LAMPS
-  vec3 direct = light.lamps.rgb * world_sun.w;
-#else
   vec3 direct = light.sun.rgb * (world_sun.w * sunlit_small(world_sun.xyz, 0.06));
-#endif
-#ifdef FIRES
-  direct += warm;
-#endif
   return through_air(albedo * (direct + ambient), world_sun.xyz);
 }
 #endif
 
 void main() {
 #if defined(ALPHA_TEST) || !defined(IDS_ONLY)
-  vec4 texel = texture(textures, vec3(texture_place(), float(surface.x)));
+  vec4 texel = texture(textures, vec3(uv, float(surface.x)));
 #endif
 #ifdef ALPHA_TEST
   if (texel.a < 0.5) discard;
@@ -56,7 +42,7 @@ void main() {
 #ifndef IDS_ONLY
   vec3 albedo = texel.rgb * linear_from_srgb(unpackUnorm4x8(surface.y).rgb);
   if (surface.w != 0u) {
-    vec4 shades = texture(textures, vec3(texture_place(), float(surface.w)));
+    vec4 shades = texture(textures, vec3(uv, float(surface.w)));
     for (int i = 0; i < 4; ++i) {
       albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(shaded[i]).rgb);
     }

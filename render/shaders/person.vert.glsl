@@ -9,6 +9,8 @@ layout(location = 4) in vec3 foot;      // per instance from here: position, m
 layout(location = 5) in uvec4 pose;     // palettes a and b, blend (a float's bits), id
 layout(location = 6) in uvec4 tints;    // top, bottom, hair, shoes: sRGB, red lowest; item: high bytes
 layout(location = 7) in uvec4 placing;  // shift in pixels; cosine and sine of the heading (bits)
+layout(location = 11) in uvec4 field;   // light around the person, half floats: that from everywhere,
+layout(location = 12) in uvec2 field_blue;  // then a vector for each color
 
 layout(binding = 3) uniform usamplerBuffer posed_bones;  // [character][palette][bone]; device_palettes.h
 
@@ -102,22 +104,26 @@ flat out ivec2 to_tile;  // from the image, pixels
 ivec2 way_to_tile() { return is_apart() ? ivec2(1 << 24) : shift(); }
 #endif
 
-#if defined(CORNERS) || defined(LIT_CORNERS)
-// Light of sun, sky and lamps at a vertex.
+#if !defined(SHADOW) && !defined(SURFACE) && !defined(COVERAGE)
+// Light of sky, lamps, fires and bounces on a surface with this normal.
+vec3 ambient_at(vec3 world, vec3 n) {
+  vec2 a = unpackHalf2x16(field.x), b = unpackHalf2x16(field.y), c = unpackHalf2x16(field.z);
+  vec2 d = unpackHalf2x16(field.w), e = unpackHalf2x16(field_blue.x), f = unpackHalf2x16(field_blue.y);
+  vec3 sum = vec3(a, b.x) + vec3(dot(vec3(b.y, c), n), dot(vec3(d, e.x), n), dot(vec3(e.y, f), n));
+  sum = max(sum, 0.0);
+#ifdef FIRES
+  sum += fire_light(world, n);
+#endif
+  return sum;
+}
+
+// The same with the sun.
 vec3 light_at(vec3 world, vec3 n) {
-  vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z);
-#ifdef LAMPS
-  vec3 direct = light.lamps.rgb * lamp_light(world, n);
-#else
   vec3 direct = light.sun.rgb * max(dot(n, light.sun_direction.xyz), 0.0);
 #ifdef SHADOWED
   direct *= sunlit_small(world, 0.06);
 #endif
-#endif
-#ifdef FIRES
-  direct += fire_light(world, n);
-#endif
-  return direct + ambient;
+  return direct + ambient_at(world, n);
 }
 #endif
 
@@ -203,11 +209,9 @@ out vec3 received;
 out vec3 air;  // the light of the air before the camera
 out vec2 uv;
 #else
-out vec4 world_sun;     // position; sunlight received before shadows, or after sunset the lamps' light
-out vec3 uv_sky;        // texture coordinates; share of the sky's light
-#ifdef FIRES
-out vec3 warm;          // light of fires
-#endif
+out vec4 world_sun;     // position; share of sunlight received before shadows
+out vec3 ambient;
+out vec2 uv;
 #endif
 flat out uvec4 surface;  // texture layer, tint as sRGB, id, a portrait's second layer or 0
 flat out uvec4 shaded;   // a portrait's tints
@@ -222,15 +226,9 @@ void main() {
   air = before.rgb;
   uv = uv_in;
 #else
-#ifdef LAMPS
-  world_sun = vec4(world, lamp_light(world, n));
-#else
   world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
-#endif
-  uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
-#ifdef FIRES
-  warm = fire_light(world, n);
-#endif
+  ambient = ambient_at(world, n);
+  uv = uv_in;
 #endif
   surface = uvec4(part() & 0xFFFu, choose_tint(tint_slot()), instance_id(), part() >> 12 & 0xFFFu);
   shaded = tints;

@@ -4,6 +4,7 @@ in vec3 world;
 in vec3 normal;
 flat in vec4 paint;
 flat in uint id;
+in vec3 ambient;
 #ifdef LEAVES
 in vec3 card;
 in float sunlit_share;
@@ -19,7 +20,6 @@ const float kWater = 4.0;
 const float kLitGlass = 5.0;
 const float kScreen = 6.0;
 const float kBark = 7.0;
-const float kSkyGlow = 3.0e-4;  // in units of lamp light
 
 vec3 sky_in(vec3 direction) {
   vec3 sky = mix(light.haze.rgb, light.zenith.rgb, sqrt(max(direction.z, 0.0)));
@@ -92,16 +92,7 @@ void main() {
   float shadow = sunlit_small(world + 0.05 * n, 0.06);
 #endif
 #endif
-  vec3 received = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z) +
-                  light.sun.rgb * (facing * shadow);
-#ifdef LAMPS
-#ifdef LEAVES
-  // The sky above a lit place is not black.
-  received += light.lamps.rgb * (lamp_light_in_leaves(world, n) + kSkyGlow * (0.7 + 0.3 * n.z));
-#else
-  received += light.lamps.rgb * lamp_light(world, n);
-#endif
-#endif
+  vec3 received = ambient + light.sun.rgb * (facing * shadow);
 #ifdef FIRES
   albedo = charcoal(albedo, charred(world, 0.5));
   received += fire_light(world, n);
@@ -129,10 +120,7 @@ void main() {
     float glint = pow(max(dot(mirrored, light.sun_direction.xyz), 0.0), 220.0);
     // Little of the light that enters comes back; a shadow on it is faint.
     float through = max(dot(surface, light.sun_direction.xyz), 0.0) * (0.85 + 0.15 * shadow);
-    vec3 inside = albedo * (light.sky.rgb + light.sun.rgb * through);
-#ifdef LAMPS
-    inside += albedo * light.lamps.rgb * lamp_light(world, n);
-#endif
+    vec3 inside = albedo * (ambient + light.sun.rgb * through);
     // The banks are mirrored below the sky, torn by the waves.
     vec3 banks = vec3(0.10, 0.12, 0.08) * (light.sky.rgb + 0.3 * light.sun.rgb);
     float bank_edge = 0.10 + 0.04 * sin(3.0 * atan(mirrored.y, mirrored.x));

@@ -4,11 +4,13 @@ layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec2 card_in;
 layout(location = 3) in vec4 paint_in;
 layout(location = 4) in uint id_in;
+layout(location = 5) in vec3 light_in;
 
 out vec3 world;
 out vec3 normal;
 flat out vec4 paint;
 flat out uint id;
+out vec3 ambient;  // light of sky, lamps and bounces on a white surface
 #ifdef LEAVES
 out vec3 card;  // coordinates on the card, then the sprite's layer
 out float sunlit_share;
@@ -19,6 +21,7 @@ void main() {
   normal = normal_in;
   paint = paint_in;
   id = id_in;
+  ambient = light_in;
 #ifdef LEAVES
   float layer = floor(card_in.x / 2.0);
   card = vec3(card_in.x - 2.0 * layer, card_in.y, layer);

@@ -1,6 +1,6 @@
 // A flat roof: gravel on felt in strips, behind a parapet.
 in vec3 world;
-in float openness;
+in vec3 ambient;
 in vec4 local;  // from a corner of the roof's bounds, then their size; m
 flat in vec3 normal;
 flat in uint id;
@@ -28,7 +28,7 @@ void main() {
   albedo *= 0.6;
 #endif
   float sun = light.sun_direction.z * sunlit(world, 0.1);
-  vec3 received = light.sun.rgb * sun + light.sky.rgb;
+  vec3 received = light.sun.rgb * sun + ambient;
 #ifdef FIRES
   received += fire_light(world, vec3(0.0, 0.0, 1.0));
 #endif

@@ -2,12 +2,12 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec4 local_in;
-layout(location = 3) in float openness_in;
+layout(location = 3) in vec3 light_in;
 layout(location = 4) in uint id_in;
 layout(location = 5) in float facade_in;
 
 out vec3 world;
-out float openness;
+out vec3 ambient;  // light of sky, lamps and bounces on a white surface
 out vec4 local;
 flat out vec3 normal;
 flat out uint id;
@@ -15,7 +15,7 @@ flat out float facade_kind;
 
 void main() {
   world = position;
-  openness = openness_in;
+  ambient = light_in;
   local = local_in;
   normal = normal_in;
   id = id_in;

@@ -2,7 +2,7 @@
 // ground_albedo comes from a ground_*.glsl, or stands for walls and roofs.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 3) in float openness;
+layout(location = 3) in vec3 ambient;
 layout(location = 4) in uint id_in;
 
 out vec3 lit;
@@ -11,12 +11,7 @@ flat out uint id;
 void main() {
   const vec2 kFar = vec2(1e3);  // a footprint in which all detail has its mean
   vec3 albedo = ground_albedo(position.xy, kFar);
-  vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * normal.z) * openness;
-#ifdef LAMPS
-  vec3 direct = light.lamps.rgb * lamp_light(position, normal);
-#else
   vec3 direct = light.sun.rgb * max(dot(normal, light.sun_direction.xyz), 0.0);
-#endif
   gl_Position = project(position);
   lit = film(through_air(albedo * (direct + ambient), position));
   id = id_in;

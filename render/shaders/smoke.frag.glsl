@@ -5,6 +5,8 @@ in vec2 on_disc;
 in vec3 off_middle;
 flat in vec4 puff;  // albedo, opacity; of flames: heat, 0, 0, opacity + 2
 flat in vec3 matter;
+flat in vec3 above;
+flat in vec3 below;
 flat in vec2 shift;
 
 layout(location = 0) out vec4 color;
@@ -52,13 +54,10 @@ void main() {
     vec3 bulge = normalize(off_middle + sqrt(inside) * normalize(light.eye.xyz - world));
     float hollow = 0.35 + 1.3 * torn;
     float through = mix(1.2, 0.75, smoothstep(0.2, 0.8, depth));
-    vec3 received = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * bulge.z) * hollow * through;
+    vec3 received = mix(below, above, 0.5 + 0.5 * bulge.z) * hollow * through;
 #ifndef NO_SUN
     float facing = 0.5 + 0.5 * dot(bulge, light.sun_direction.xyz);
     received += light.sun.rgb * (0.75 * facing * facing * hollow * through);
-#endif
-#ifdef LAMPS
-    received += light.lamps.rgb * (2.0e-4 + 4.0e-4 * exp(-world.z / 4.0));
 #endif
 #ifdef FIRES
     // Smoke above hides the fire from what is higher.

@@ -1,6 +1,6 @@
 // A facade: plaster or brick, floors, a grid of windows with reveals, a plinth and a cornice.
 in vec3 world;
-in float openness;
+in vec3 ambient;
 in vec4 local;  // along the wall, up, wall length, wall height; m
 flat in vec3 normal;
 flat in uint id;
@@ -339,9 +339,6 @@ void main() {
   float sun = facing * sunlit(world + 0.12 * normal, 0.02);
   // A shadow falls through glass onto what is behind it, and is not seen on it.
   sun = mix(sun, 0.5 * facing, min(s.shine.g, 1.0));
-  float low = clamp(world.z / 4.0, 0.0, 1.0);
-  vec3 ambient = light.sky.rgb * (0.42 + 0.13 * low) + light.bounce.rgb * (0.5 - 0.2 * low);
-  ambient = mix(ambient, light.sky.rgb, normal.z);
   vec3 received = light.sun.rgb * sun + ambient;
 #ifdef FIRES
   float burned = charred(world, noise(vec2(local.x, local.y * 0.5) * 0.8));
@@ -351,7 +348,6 @@ void main() {
 #endif
   vec3 glow = vec3(0.0);
 #ifdef LAMPS
-  received += light.lamps.rgb * lamp_light(world + 0.6 * normal, normal);
   glow = s.glow * light.lamps.rgb * kWindow;
 #endif
   vec3 radiance = s.albedo * received + s.shine * mirrored_in_glass(s.mirror, s.tilt) + glow;

@@ -1,0 +1,110 @@
+#include "render/light/cut_meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "render/light/near_map.h"
+#include "render/light/refine.h"
+#include "render/light/vertex.h"
+
+namespace throng::render {
+
+namespace {
+
+using Eigen::Vector3f;
+
+/// Drawing a triangle costs a software renderer some 0.1 us: these are a few milliseconds of a
+/// frame.
+constexpr std::size_t kMaxSceneryTriangles = 30'000;
+constexpr std::size_t kMaxPropTriangles = 20'000;
+
+/// Replaces the triangles of `range` in a new list of indices.
+template <typename IsLong>
+void cut_range(const std::vector<std::uint32_t>& indices, Range& range, SceneryMesh& mesh,
+               std::vector<std::uint32_t>& out, const IsLong& is_long) {
+  const std::vector<std::uint32_t> cut =
+      refined(std::span(indices).subspan(range.first, range.count), mesh.vertices, is_long);
+  range = {static_cast<std::uint32_t>(out.size()), static_cast<std::uint32_t>(cut.size())};
+  out.insert(out.end(), cut.begin(), cut.end());
+}
+
+void cut_scenery(const NearMap& near, const Eigen::AlignedBox2d& ground, float scale,
+                 SceneryMesh& mesh, std::vector<GroundLayer>& layers) {
+  const Eigen::AlignedBox2f bounds = ground.cast<float>();
+  // Light on the ground varies near what stands on it.
+  const auto on_ground = [&](const SceneryVertex& a, const SceneryVertex& b) {
+    const Vector3f edge = position_of(b) - position_of(a);
+    const Vector3f middle = position_of(a) + 0.5F * edge;
+    if (bounds.exteriorDistance(Eigen::Vector2f(middle.head<2>())) > 0) return false;
+    const float wanted =
+        std::clamp(0.8F + 0.45F * near.distance_m(middle.x(), middle.y()), 0.8F, 6.0F);
+    return edge.norm() > scale * wanted;
+  };
+  // On walls, from their foot upwards, more than along them.
+  const auto on_wall = [&](const SceneryVertex& a, const SceneryVertex& b) {
+    const Vector3f edge = position_of(b) - position_of(a);
+    const float low = std::min(a.position[2], b.position[2]);
+    const float up = std::clamp(0.8F + 0.5F * low, 0.8F, 6.0F);
+    return std::max(std::abs(edge.z()) / up, edge.head<2>().norm() / 4.0F) > scale;
+  };
+  const auto on_roof = [&](const SceneryVertex& a, const SceneryVertex& b) {
+    return (position_of(b) - position_of(a)).norm() > 5 * scale;
+  };
+  const std::vector<std::uint32_t> indices = std::move(mesh.indices);
+  std::vector<std::uint32_t> out;
+  cut_range(indices, mesh.walls, mesh, out, on_wall);
+  cut_range(indices, mesh.roofs, mesh, out, on_roof);
+  cut_range(indices, mesh.ground, mesh, out, on_ground);
+  cut_range(indices, mesh.surroundings, mesh, out,
+            [](const SceneryVertex&, const SceneryVertex&) { return false; });
+  for (GroundLayer& layer : layers) cut_range(indices, layer.range, mesh, out, on_ground);
+  mesh.indices = std::move(out);
+}
+
+/// Cuts the props' triangles with sides above `side_m`; returns how many there are.
+std::size_t cut_props(float side_m, std::vector<PlacedProp>& props) {
+  std::size_t count = 0;
+  for (PlacedProp& prop : props) {
+    if (prop.is_backdrop) continue;
+    PropMesh& mesh = prop.mesh;
+    mesh.indices = refined(std::span<const std::uint32_t>(mesh.indices), mesh.vertices,
+                           [&](const PropVertex& a, const PropVertex& b) {
+                             return a.paint[3] != static_cast<std::uint8_t>(Finish::leaves) &&
+                                    (position_of(b) - position_of(a)).norm() > side_m;
+                           });
+    count += mesh.indices.size() / 3;
+  }
+  return count;
+}
+
+std::size_t triangles_of(const std::vector<PlacedProp>& props) {
+  std::size_t count = 0;
+  for (const PlacedProp& prop : props) count += prop.is_backdrop ? 0 : prop.mesh.indices.size() / 3;
+  return count;
+}
+
+}  // namespace
+
+void cut_meshes(const Eigen::AlignedBox2d& ground, double scale, PlaceMeshes& meshes) {
+  constexpr float kCoarser = 1.5F;
+  const NearMap near(meshes, ground);
+  const SceneryMesh scenery = meshes.scenery;
+  const std::vector<GroundLayer> layers = meshes.layers;
+  const std::size_t most = std::max(kMaxSceneryTriangles, scenery.indices.size() / 3 * 5 / 4);
+  for (auto side = static_cast<float>(scale);; side *= kCoarser) {
+    cut_scenery(near, ground, side, meshes.scenery, meshes.layers);
+    if (meshes.scenery.indices.size() / 3 <= most) break;
+    meshes.scenery = scenery;
+    meshes.layers = layers;
+  }
+  const std::vector<PlacedProp> props = meshes.props;
+  const std::size_t most_of_props = triangles_of(props) + kMaxPropTriangles;
+  for (auto side = static_cast<float>(2 * scale); cut_props(side, meshes.props) > most_of_props;
+       side *= kCoarser) {
+    meshes.props = props;
+  }
+}
+
+}  // namespace throng::render

@@ -1,0 +1,75 @@
+// Diffuse light by rays: what reaches a point from the sky, from lamps, and after the first two
+// bounces. Direct sunlight is not in it, which the shadow map gives at every pixel.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "render/light/ray_scene.h"
+#include "render/light/sky_light.h"
+#include "render/scenery/daylight.h"
+#include "render/scenery/lamps.h"
+
+namespace throng::render {
+
+/// Light in a point from everywhere: a surface with unit normal n receives even + toward^T n.
+struct LightField {
+  Eigen::Array3f even = Eigen::Array3f::Zero();
+  Eigen::Matrix3f toward = Eigen::Matrix3f::Zero();  ///< a column per color
+
+  /// Linear RGB of the light that a white surface throws back.
+  Eigen::Array3f received(const Eigen::Vector3f& normal) const {
+    return (even + (toward.transpose() * normal).array()).max(0.0F);
+  }
+};
+
+/// The light of a place. Colors are in units of daylight.h before exposure. Answers depend on
+/// nothing but the arguments.
+class LightRays {
+ public:
+  /// `scene` must be built and outlive this object.
+  LightRays(const RayScene& scene, const SkyLight& sky, const Daylight& day,
+            std::vector<Lamp> lamps);
+
+  /// What a white surface at a point with this normal receives, from `paths` paths; no value inside
+  /// of a building.
+  std::optional<Eigen::Array3f> received(const Eigen::Vector3f& point,
+                                         const Eigen::Vector3f& normal, int paths) const;
+
+  /// The light in a point; no value inside of a building.
+  std::optional<LightField> field(const Eigen::Vector3f& point, int paths) const;
+
+  /// The radiance that arrives against a direction; used by the reference renderer of bench/, too.
+  /// `number` chooses the path.
+  Eigen::Array3f radiance(const Eigen::Vector3f& from, const Eigen::Vector3f& direction,
+                          int bounces, std::uint32_t number, bool& from_behind) const;
+  /// The light that a surface receives straight from the sun and from lamps.
+  Eigen::Array3f direct(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                        std::uint32_t number) const;
+
+ private:
+  struct Beam {
+    Eigen::Vector3f direction;
+    float strength = 0;  ///< on a surface that faces it, in units of lamp light
+    float distance_m = 0;
+  };
+  std::optional<Beam> beam(const Lamp& lamp, const Eigen::Vector3f& point) const;
+  const std::vector<std::size_t>& lamps_near(const Eigen::Vector3f& point) const;
+  Eigen::Array3f one_lamp(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                          std::uint32_t number) const;
+
+  const RayScene& scene_;
+  const SkyLight& sky_;
+  Eigen::Vector3f to_sun_;
+  Eigen::Array3f sun_;
+  bool soft_;
+  Eigen::Array3f lamp_color_;
+  std::vector<Lamp> lamps_;
+  Eigen::Vector2f cells_from_ = Eigen::Vector2f::Zero();
+  Eigen::Vector2i cells_ = Eigen::Vector2i::Zero();
+  std::vector<std::vector<std::size_t>> lamps_by_cell_;
+};
+
+}  // namespace throng::render

@@ -1,0 +1,302 @@
+#include "render/light/place_light.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/compute/parallel.h"
+#include "base/files/hash.h"
+#include "render/light/cut_meshes.h"
+#include "render/light/light_bake.h"
+#include "render/light/light_store.h"
+#include "render/light/ray_scene.h"
+#include "render/light/sky_light.h"
+#include "render/light/surfaces.h"
+#include "render/light/vertex.h"
+#include "render/scenery/lamps.h"
+
+namespace throng::render {
+
+namespace {
+
+using Eigen::Array3f;
+using Eigen::Vector3f;
+
+/// Part of the files' names: another one where the same arguments give other light.
+constexpr std::string_view kVersion = "1";
+
+/// Paths for each point, and how coarse triangles are.
+struct Effort {
+  int scenery;
+  int props;
+  int air;
+  int leaves;
+  double scale;
+};
+
+Effort effort_for(const QualitySettings& quality) {
+  if (!quality.textured) return {16, 12, 24, 8, 2.5};
+  return quality.supersampling > 1 ? Effort{144, 64, 96, 24, 0.7} : Effort{64, 32, 48, 12, 1};
+}
+
+struct Point {
+  Vector3f position;
+  Vector3f normal;
+  int paths = 0;
+  bool is_leaf = false;
+};
+
+constexpr std::uint32_t kInTheOpen = ~0U;
+
+/// Points whose light is wanted, each once, and which of them vertices use.
+class Points {
+ public:
+  std::uint32_t add(const Point& point) {
+    const auto round = [](float value, float step) {
+      return static_cast<int>(std::lround(value / step));
+    };
+    // Layers of ground lie closer than the third number tells apart.
+    const std::array<int, 7> key = {round(point.position.x(), 0.01F),
+                                    round(point.position.y(), 0.01F),
+                                    round(point.position.z(), 0.04F),
+                                    round(point.normal.x(), 0.02F),
+                                    round(point.normal.y(), 0.02F),
+                                    round(point.normal.z(), 0.02F),
+                                    point.paths};
+    const auto [found, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(all_.size()));
+    if (is_new) all_.push_back(point);
+    return found->second;
+  }
+  const std::vector<Point>& all() const { return all_; }
+
+ private:
+  std::map<std::array<int, 7>, std::uint32_t> known_;
+  std::vector<Point> all_;
+};
+
+std::vector<std::uint32_t> points_of(const SceneryMesh& mesh, const Eigen::AlignedBox2d& ground,
+                                     int paths, Points& points) {
+  constexpr double kNearM = 30;
+  std::vector<std::uint32_t> used;
+  used.reserve(mesh.vertices.size());
+  for (const SceneryVertex& vertex : mesh.vertices) {
+    const Vector3f at = position_of(vertex);
+    const bool far = ground.exteriorDistance(Eigen::Vector2d(at.head<2>().cast<double>())) > kNearM;
+    used.push_back(far ? kInTheOpen : points.add({at, normal_of(vertex), paths, false}));
+  }
+  return used;
+}
+
+std::vector<std::uint32_t> points_of(const PropMesh& mesh, const Effort& effort, Points& points) {
+  constexpr std::size_t kCardCorners = 4;
+  std::vector<std::uint32_t> used;
+  used.reserve(mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const PropVertex& vertex = mesh.vertices[i];
+    const bool is_leaf = vertex.paint[3] == static_cast<std::uint8_t>(Finish::leaves);
+    if (!is_leaf || i + kCardCorners > mesh.vertices.size()) {
+      used.push_back(points.add({position_of(vertex), normal_of(vertex), effort.props, false}));
+      continue;
+    }
+    // A card's corners share the light of its middle.
+    Vector3f middle = Vector3f::Zero();
+    Vector3f normal = Vector3f::Zero();
+    for (std::size_t k = 0; k < kCardCorners; ++k) {
+      middle += 0.25F * position_of(mesh.vertices[i + k]);
+      normal += 0.25F * normal_of(mesh.vertices[i + k]);
+    }
+    used.insert(used.end(), kCardCorners, points.add({middle, normal, effort.leaves, true}));
+    i += kCardCorners - 1;
+  }
+  return used;
+}
+
+void append(std::string& bytes, std::span<const float> values) {
+  bytes.append(reinterpret_cast<const char*>(
+                   values.data()),  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
+               values.size_bytes());
+}
+
+std::string key_of(const RayScene& rays, const Environment& environment, const Daylight& day,
+                   const std::vector<Lamp>& lamps, const Points& points, const ProbeGrid& probes,
+                   int air_paths) {
+  std::string bytes(kVersion);
+  bytes += rays.fingerprint();
+  const auto add = [&](double value) {
+    const auto single = static_cast<float>(value);
+    append(bytes, {&single, 1});
+  };
+  for (const Eigen::Array3d& color : {day.sun, day.sky, day.lamps}) {
+    for (const double value : color) add(value / day.exposure);
+  }
+  for (const double value : day.direction) add(value);
+  add(static_cast<double>(environment.weather));
+  add(environment.sun_elevation_rad);
+  for (const Lamp& lamp : lamps) {
+    for (const double value : lamp.position) add(value);
+    for (const double value : lamp.away) add(value);
+    add(lamp.strength);
+  }
+  for (const Point& point : points.all()) {
+    append(bytes, {point.position.data(), 3});
+    append(bytes, {point.normal.data(), 3});
+    add(point.paths);
+  }
+  add(air_paths);
+  for (std::size_t i = 0; i < probes.size(); ++i) append(bytes, {probes.position(i).data(), 3});
+  return sha256_hex(bytes);
+}
+
+constexpr float kInside = -1;  // in place of a color: within a building
+
+std::vector<float> bake(const LightRays& light, const Points& points, const ProbeGrid& probes,
+                        int air_paths) {
+  const std::size_t surface = 3 * points.all().size();
+  std::vector<float> values(surface + ProbeGrid::kFloatsEach * probes.size(), kInside);
+  constexpr std::size_t kGrain = 32;
+  parallel_ranges(points.all().size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Point& point = points.all()[i];
+      std::optional<Array3f> received;
+      if (point.is_leaf) {
+        // Light goes through leaves and around their sides.
+        constexpr float kThrough = 0.6F;
+        const auto field = light.field(point.position, point.paths);
+        if (field) received = field->received(kThrough * point.normal);
+      } else {
+        received = light.received(point.position, point.normal, point.paths);
+      }
+      if (received) std::copy_n(received->data(), 3, &values[3 * i]);
+    }
+  });
+  parallel_ranges(probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto field = light.field(probes.position(i), air_paths);
+      if (!field) continue;
+      float* at = &values[surface + ProbeGrid::kFloatsEach * i];
+      std::copy_n(field->even.data(), 3, at);
+      std::copy_n(field->toward.data(), 9, at + 3);
+    }
+  });
+  return values;
+}
+
+void set_probes(std::span<const float> values, ProbeGrid& probes) {
+  std::vector<std::optional<LightField>> fields(probes.size());
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const float* at = &values[ProbeGrid::kFloatsEach * i];
+    if (at[0] < 0) continue;
+    fields[i] = LightField{Array3f(at[0], at[1], at[2]), Eigen::Matrix3f(at + 3)};
+  }
+  probes.set(fields);
+}
+
+/// Sets the light of a mesh's vertices; those within buildings take that of their triangles' other
+/// corners.
+template <typename Vertex>
+void set_light(std::span<const float> values, float exposure, const LightField& open,
+               const std::vector<std::uint32_t>& used, const std::vector<std::uint32_t>& indices,
+               std::vector<Vertex>& vertices) {
+  std::vector<bool> known(vertices.size(), true);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    Array3f light = open.received(normal_of(vertices[i]));
+    if (used[i] != kInTheOpen) {
+      const float* at = &values[3 * std::size_t{used[i]}];
+      known[i] = at[0] >= 0;
+      light = exposure * Array3f(at[0], at[1], at[2]).max(0.0F);
+    }
+    std::copy_n(light.data(), 3, vertices[i].light.data());
+  }
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    std::map<std::uint32_t, std::pair<Array3f, float>> sums;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (known[indices[i + k]]) continue;
+        for (std::size_t other = 0; other < 3; ++other) {
+          if (!known[indices[i + other]]) continue;
+          auto& [sum, count] =
+              sums.try_emplace(indices[i + k], Array3f::Zero(), 0.0F).first->second;
+          sum += Array3f(vertices[indices[i + other]].light.data());
+          ++count;
+        }
+      }
+    }
+    for (const auto& [vertex, sum] : sums) {
+      const Array3f mean = sum.first / sum.second;
+      std::copy_n(mean.data(), 3, vertices[vertex].light.data());
+      known[vertex] = true;
+    }
+  }
+}
+
+}  // namespace
+
+void add_place(const PlaceMeshes& meshes, const world::Scenario& scenario,
+               const Array3f& lamp_color, RayScene& rays) {
+  const SceneryMesh& mesh = meshes.scenery;
+  for (std::size_t i = 0; i < mesh.walls.count; i += 3) {
+    const std::size_t first = mesh.walls.first + i;
+    rays.add_triangle(mesh, first, wall_surface(mesh.vertices[mesh.indices[first]], lamp_color));
+  }
+  for (std::size_t i = 0; i < mesh.roofs.count; i += 3) {
+    const std::size_t first = mesh.roofs.first + i;
+    rays.add_triangle(mesh, first, roof_surface(mesh.vertices[mesh.indices[first]]));
+  }
+  rays.add(mesh, mesh.ground, ground_surface(scenario.ground_material));
+  rays.add(mesh, mesh.surroundings, ground_surface("surroundings"));
+  for (const GroundLayer& layer : meshes.layers)
+    rays.add(mesh, layer.range, ground_surface(layer.material));
+  for (const PlacedProp& prop : meshes.props) {
+    if (!prop.is_backdrop && prop.from_s <= 0) rays.add(prop.mesh, lamp_color);
+  }
+  rays.build();
+}
+
+ProbeGrid light_place(const world::Scenario& scenario, const Environment& environment,
+                      const Daylight& day, const QualitySettings& quality,
+                      const std::filesystem::path& folder, PlaceMeshes& meshes) {
+  const Effort effort = effort_for(quality);
+  const Eigen::AlignedBox2d ground(scenario.ground.min, scenario.ground.max);
+  std::vector<Lamp> lamps;
+  if (day.lamps_on) lamps = all_lamps(scenario);
+  RayScene rays;
+  add_place(meshes, scenario, (day.lamps / day.exposure).cast<float>(), rays);
+  cut_meshes(ground, effort.scale, meshes);
+
+  Points points;
+  const std::vector<std::uint32_t> scenery =
+      points_of(meshes.scenery, ground, effort.scenery, points);
+  std::vector<std::vector<std::uint32_t>> props;
+  for (const PlacedProp& prop : meshes.props) {
+    props.push_back(prop.is_backdrop
+                        ? std::vector<std::uint32_t>(prop.mesh.vertices.size(), kInTheOpen)
+                        : points_of(prop.mesh, effort, points));
+  }
+  ProbeGrid probes(ground, true);
+  const SkyLight sky(environment, day);
+  const LightRays light(rays, sky, day, lamps);
+  const std::size_t surface = 3 * points.all().size();
+  const std::vector<float> values =
+      load_or_make(folder, key_of(rays, environment, day, lamps, points, probes, effort.air),
+                   surface + ProbeGrid::kFloatsEach * probes.size(),
+                   [&] { return bake(light, points, probes, effort.air); });
+
+  const auto exposure = static_cast<float>(day.exposure);
+  set_probes(std::span(values).subspan(surface), probes);
+  probes.expose(exposure);
+  set_light(values, exposure, probes.open(), scenery, meshes.scenery.indices,
+            meshes.scenery.vertices);
+  for (std::size_t i = 0; i < meshes.props.size(); ++i) {
+    PropMesh& mesh = meshes.props[i].mesh;
+    set_light(values, exposure, probes.open(), props[i], mesh.indices, mesh.vertices);
+  }
+  return probes;
+}
+
+}  // namespace throng::render

@@ -1,0 +1,18 @@
+// Positions and normals of the scenery's and the props' vertices.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace throng::render {
+
+template <typename Vertex>
+Eigen::Vector3f position_of(const Vertex& vertex) {
+  return Eigen::Vector3f(vertex.position.data());
+}
+
+template <typename Vertex>
+Eigen::Vector3f normal_of(const Vertex& vertex) {
+  return Eigen::Vector3f(vertex.normal.data());
+}
+
+}  // namespace throng::render
