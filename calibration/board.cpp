@@ -104,6 +104,9 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
     found = cv::findChessboardCornersSB(small.image, size, corners,
                                         cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE);
   }
+  // One threshold for the whole image finds slanted boards before an even background, which the
+  // others miss.
+  if (!found) found = cv::findChessboardCorners(small.image, size, corners, 0);
   // A part of a larger board looks like a smaller one.
   const std::optional<cv::Size> there = size_of_any_chessboard(small.image);
   const bool fits = there && ((there->width == size.width && there->height == size.height) ||

@@ -37,7 +37,7 @@ using nlohmann::json;
 /// Tolerances.
 constexpr double kMaxFocalError = 1e-3;  // of the focal length
 constexpr double kMaxCenterErrorPx = 0.5;
-constexpr double kMaxRmsPx = 0.15;
+constexpr double kMaxRmsPx = 0.2;
 constexpr double kMaxTruthErrorPx = 0.05;
 
 struct SelftestArguments {

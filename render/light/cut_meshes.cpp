@@ -35,8 +35,8 @@ void cut_scenery(const NearMap& near, const Eigen::AlignedBox2d& ground, float s
   const Eigen::AlignedBox2f bounds = ground.cast<float>();
   // Light on the ground varies near what stands on it.
   const auto on_ground = [&](const SceneryVertex& a, const SceneryVertex& b) {
-    const Vector3f edge = position_of(b) - position_of(a);
-    const Vector3f middle = position_of(a) + 0.5F * edge;
+    const Vector3f edge = vertex_position(b) - vertex_position(a);
+    const Vector3f middle = vertex_position(a) + 0.5F * edge;
     if (bounds.exteriorDistance(Eigen::Vector2f(middle.head<2>())) > 0) return false;
     const float wanted =
         std::clamp(0.8F + 0.45F * near.distance_m(middle.x(), middle.y()), 0.8F, 6.0F);
@@ -44,13 +44,13 @@ void cut_scenery(const NearMap& near, const Eigen::AlignedBox2d& ground, float s
   };
   // On walls, from their foot upwards, more than along them.
   const auto on_wall = [&](const SceneryVertex& a, const SceneryVertex& b) {
-    const Vector3f edge = position_of(b) - position_of(a);
+    const Vector3f edge = vertex_position(b) - vertex_position(a);
     const float low = std::min(a.position[2], b.position[2]);
     const float up = std::clamp(0.8F + 0.5F * low, 0.8F, 6.0F);
     return std::max(std::abs(edge.z()) / up, edge.head<2>().norm() / 4.0F) > scale;
   };
   const auto on_roof = [&](const SceneryVertex& a, const SceneryVertex& b) {
-    return (position_of(b) - position_of(a)).norm() > 5 * scale;
+    return (vertex_position(b) - vertex_position(a)).norm() > 5 * scale;
   };
   const std::vector<std::uint32_t> indices = std::move(mesh.indices);
   std::vector<std::uint32_t> out;
@@ -72,14 +72,14 @@ std::size_t cut_props(float side_m, std::vector<PlacedProp>& props) {
     mesh.indices = refined(std::span<const std::uint32_t>(mesh.indices), mesh.vertices,
                            [&](const PropVertex& a, const PropVertex& b) {
                              return a.paint[3] != static_cast<std::uint8_t>(Finish::leaves) &&
-                                    (position_of(b) - position_of(a)).norm() > side_m;
+                                    (vertex_position(b) - vertex_position(a)).norm() > side_m;
                            });
     count += mesh.indices.size() / 3;
   }
   return count;
 }
 
-std::size_t triangles_of(const std::vector<PlacedProp>& props) {
+std::size_t count_triangles(const std::vector<PlacedProp>& props) {
   std::size_t count = 0;
   for (const PlacedProp& prop : props) count += prop.is_backdrop ? 0 : prop.mesh.indices.size() / 3;
   return count;
@@ -92,17 +92,18 @@ void cut_meshes(const Eigen::AlignedBox2d& ground, double scale, PlaceMeshes& me
   const NearMap near(meshes, ground);
   const SceneryMesh scenery = meshes.scenery;
   const std::vector<GroundLayer> layers = meshes.layers;
-  const std::size_t most = std::max(kMaxSceneryTriangles, scenery.indices.size() / 3 * 5 / 4);
+  const std::size_t max_triangles =
+      std::max(kMaxSceneryTriangles, scenery.indices.size() / 3 * 5 / 4);
   for (auto side = static_cast<float>(scale);; side *= kCoarser) {
     cut_scenery(near, ground, side, meshes.scenery, meshes.layers);
-    if (meshes.scenery.indices.size() / 3 <= most) break;
+    if (meshes.scenery.indices.size() / 3 <= max_triangles) break;
     meshes.scenery = scenery;
     meshes.layers = layers;
   }
   const std::vector<PlacedProp> props = meshes.props;
-  const std::size_t most_of_props = triangles_of(props) + kMaxPropTriangles;
-  for (auto side = static_cast<float>(2 * scale); cut_props(side, meshes.props) > most_of_props;
-       side *= kCoarser) {
+  const std::size_t max_prop_triangles = count_triangles(props) + kMaxPropTriangles;
+  for (auto side = static_cast<float>(2 * scale);
+       cut_props(side, meshes.props) > max_prop_triangles; side *= kCoarser) {
     meshes.props = props;
   }
 }

@@ -15,6 +15,9 @@ using Eigen::Vector3f;
 /// Rays begin so far above a surface: more than layers of ground lie apart (ground_layers.cpp).
 constexpr float kOffM = 0.02F;
 
+/// Bounces of baked light.
+constexpr int kBakedBounces = 2;
+
 /// An irregular number, 0 to 1, of a path and what it is used for.
 float scatter(std::uint32_t number, std::uint32_t use) {
   std::uint32_t h = number * 0x9E3779B1U ^ (use + 1) * 0x85EBCA77U;
@@ -80,10 +83,15 @@ LightRays::LightRays(const RayScene& scene, const SkyLight& sky, const Daylight&
       for (int dx = -1; dx <= 1; ++dx) {
         const Eigen::Vector2i cell(static_cast<int>(at.x()) + dx, static_cast<int>(at.y()) + dy);
         if ((cell.array() < 0).any() || (cell.array() >= cells_.array()).any()) continue;
-        lamps_by_cell_[static_cast<std::size_t>(cell.y() * cells_.x() + cell.x())].push_back(i);
+        lamps_by_cell_[cell_index(cell)].push_back(i);
       }
     }
   }
+}
+
+std::size_t LightRays::cell_index(const Eigen::Vector2i& cell) const {
+  return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(cells_.x()) +
+         static_cast<std::size_t>(cell.x());
 }
 
 const std::vector<std::size_t>& LightRays::lamps_near(const Vector3f& point) const {
@@ -92,7 +100,7 @@ const std::vector<std::size_t>& LightRays::lamps_near(const Vector3f& point) con
   const Eigen::Vector2f at = (point.head<2>() - cells_from_) / static_cast<float>(kLampReachM);
   const Eigen::Vector2i cell = at.array().floor().cast<int>();
   if ((cell.array() < 0).any() || (cell.array() >= cells_.array()).any()) return kNone;
-  return lamps_by_cell_[static_cast<std::size_t>(cell.y() * cells_.x() + cell.x())];
+  return lamps_by_cell_[cell_index(cell)];
 }
 
 std::optional<LightRays::Beam> LightRays::beam(const Lamp& lamp, const Vector3f& point) const {
@@ -106,7 +114,7 @@ std::optional<LightRays::Beam> LightRays::beam(const Lamp& lamp, const Vector3f&
   return Beam{direction, strength, distance};
 }
 
-// One lamp, the brighter the likelier, stands for all.
+// One lamp, chosen in proportion to its light, stands for all.
 Array3f LightRays::one_lamp(const Vector3f& point, const Vector3f& normal,
                             std::uint32_t number) const {
   const auto light_of = [&](std::size_t i) {
@@ -142,16 +150,21 @@ Array3f LightRays::direct(const Vector3f& point, const Vector3f& normal,
 }
 
 Array3f LightRays::radiance(const Vector3f& from, const Vector3f& direction, int bounces,
-                            std::uint32_t number, bool& from_behind) const {
+                            std::uint32_t number, bool& from_behind, float skipped_m) const {
   Array3f sum = Array3f::Zero();
   Array3f passed = Array3f::Ones();
   Vector3f origin = from;
   Vector3f way = direction;
   for (int bounce = 0;; ++bounce) {
-    const std::optional<RayHit> hit = scene_.trace(origin, way);
+    const std::optional<RayHit> hit = scene_.trace(origin, way, bounce == 0 ? skipped_m : 0);
     if (!hit) return sum + passed * sky_.radiance(way);
     if (bounce == 0) from_behind = hit->is_back;
     if (bounce == bounces) return sum;
+    // Every second path goes on after its first bounce, and counts twice: what comes then is small.
+    if (bounce == 1 && bounces == kBakedBounces) {
+      if (number % 2 == 1) return sum;
+      passed *= 2;
+    }
     const Vector3f point = hit->position + kOffM * hit->normal;
     sum += passed * hit->surface->glow;
     passed *= linear(hit->surface->albedo);
@@ -164,7 +177,6 @@ Array3f LightRays::radiance(const Vector3f& from, const Vector3f& direction, int
 
 std::optional<Array3f> LightRays::received(const Vector3f& point, const Vector3f& normal,
                                            int paths) const {
-  constexpr int kBounces = 2;
   // Not below the layers of the ground, on which walls and props stand.
   Vector3f origin = point + kOffM * normal;
   origin.z() = std::max(origin.z(), kOffM);
@@ -173,7 +185,7 @@ std::optional<Array3f> LightRays::received(const Vector3f& point, const Vector3f
   for (int i = 0; i < paths; ++i) {
     const float height = std::sqrt((static_cast<float>(i) + 0.5F) / static_cast<float>(paths));
     bool from_behind = false;
-    sum += radiance(origin, about(normal, about_z(height, spiral_turn(i))), kBounces,
+    sum += radiance(origin, about(normal, about_z(height, spiral_turn(i))), kBakedBounces,
                     static_cast<std::uint32_t>(i), from_behind);
     behind += from_behind ? 1 : 0;
   }
@@ -189,8 +201,8 @@ std::optional<Array3f> LightRays::received(const Vector3f& point, const Vector3f
   return sum;
 }
 
-std::optional<LightField> LightRays::field(const Vector3f& point, int paths) const {
-  constexpr int kBounces = 2;
+std::optional<LightField> LightRays::field(const Vector3f& point, int paths,
+                                           float skipped_m) const {
   LightField field;
   int behind = 0;
   const auto add = [&](const Vector3f& direction, const Array3f& light, float even, float toward) {
@@ -204,15 +216,16 @@ std::optional<LightField> LightRays::field(const Vector3f& point, int paths) con
     const Vector3f direction =
         about_z(1 - (2 * static_cast<float>(i) + 1) * weight, spiral_turn(i));
     bool from_behind = false;
-    const Array3f light =
-        radiance(point, direction, kBounces, static_cast<std::uint32_t>(i), from_behind);
+    const Array3f light = radiance(point, direction, kBakedBounces, static_cast<std::uint32_t>(i),
+                                   from_behind, skipped_m);
     behind += from_behind ? 1 : 0;
     add(direction, light, weight, 2 * weight);
   }
   if (2 * behind > paths) return std::nullopt;
   for (const std::size_t i : lamps_near(point)) {
     const std::optional<Beam> lamp = beam(lamps_[i], point);
-    if (!lamp || !scene_.is_free(point, lamp->direction, lamp->distance_m - 0.3F)) continue;
+    if (!lamp || !scene_.is_free(point, lamp->direction, lamp->distance_m - 0.3F, skipped_m))
+      continue;
     add(lamp->direction, lamp_color_ * lamp->strength, 0.25F, 0.5F);
   }
   return field;

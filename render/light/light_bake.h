@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "render/light/ray_scene.h"
@@ -33,18 +35,20 @@ class LightRays {
   LightRays(const RayScene& scene, const SkyLight& sky, const Daylight& day,
             std::vector<Lamp> lamps);
 
-  /// What a white surface at a point with this normal receives, from `paths` paths; no value inside
-  /// of a building.
+  /// Light that a white surface at a point with this normal receives, from `paths` paths; no value
+  /// inside of a building.
   std::optional<Eigen::Array3f> received(const Eigen::Vector3f& point,
                                          const Eigen::Vector3f& normal, int paths) const;
 
-  /// The light in a point; no value inside of a building.
-  std::optional<LightField> field(const Eigen::Vector3f& point, int paths) const;
+  /// The light in a point, past what is less than `skipped_m` away; no value inside of a building.
+  std::optional<LightField> field(const Eigen::Vector3f& point, int paths,
+                                  float skipped_m = 0) const;
 
   /// The radiance that arrives against a direction; used by the reference renderer of bench/, too.
   /// `number` chooses the path.
   Eigen::Array3f radiance(const Eigen::Vector3f& from, const Eigen::Vector3f& direction,
-                          int bounces, std::uint32_t number, bool& from_behind) const;
+                          int bounces, std::uint32_t number, bool& from_behind,
+                          float skipped_m = 0) const;
   /// The light that a surface receives straight from the sun and from lamps.
   Eigen::Array3f direct(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                         std::uint32_t number) const;
@@ -56,6 +60,7 @@ class LightRays {
     float distance_m = 0;
   };
   std::optional<Beam> beam(const Lamp& lamp, const Eigen::Vector3f& point) const;
+  std::size_t cell_index(const Eigen::Vector2i& cell) const;
   const std::vector<std::size_t>& lamps_near(const Eigen::Vector3f& point) const;
   Eigen::Array3f one_lamp(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                           std::uint32_t number) const;

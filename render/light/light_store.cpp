@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kHashDigits = 64;
 
-std::string_view bytes_of(const std::vector<float>& values) {
+std::string_view as_bytes(const std::vector<float>& values) {
   return {reinterpret_cast<const char*>(
               values.data()),  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
           values.size() * sizeof(float)};
@@ -43,7 +43,7 @@ std::optional<std::vector<float>> read_values(const fs::path& file, std::size_t 
   return values;
 }
 
-/// Holds the folder's lock until destruction. Where a file system has no locks, several processes
+/// Holds the folder's lock until destruction. If a file system has no locks, several processes
 /// may make the same bytes.
 class Turn {
  public:
@@ -99,8 +99,8 @@ std::vector<float> load_or_make(const fs::path& folder, const std::string& key, 
   std::vector<float> values = made();
   make_room(folder, count * sizeof(float) + kHashDigits);
   StagedFile staged(file);
-  staged.write(bytes_of(values));
-  staged.write(sha256_hex(bytes_of(values)));
+  staged.write(as_bytes(values));
+  staged.write(sha256_hex(as_bytes(values)));
   staged.commit();
   return values;
 }

@@ -27,8 +27,8 @@ NearMap::NearMap(const PlaceMeshes& meshes, const Eigen::AlignedBox2d& ground)
                               std::size_t end) {
     for (std::size_t i = 0; i + 2 < end; i += 3) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3f a = position_of(vertices[indices[i + k]]);
-        const Vector3f b = position_of(vertices[indices[i + (k + 1) % 3]]);
+        const Vector3f a = vertex_position(vertices[indices[i + k]]);
+        const Vector3f b = vertex_position(vertices[indices[i + (k + 1) % 3]]);
         if (std::min(a.z(), b.z()) < kLowM) mark(a, b);
       }
     }
@@ -82,8 +82,7 @@ float NearMap::distance_m(float x, float y) const {
   const auto column = static_cast<int>(std::floor((x - from_.x()) / cell_m_));
   const auto row = static_cast<int>(std::floor((y - from_.y()) / cell_m_));
   if (column < -1 || row < -1 || column > columns_ || row > rows_) return kFarM;
-  return distances_[static_cast<std::size_t>(std::clamp(row, 0, rows_ - 1) * columns_ +
-                                             std::clamp(column, 0, columns_ - 1))];
+  return distances_[cell_index(std::clamp(column, 0, columns_ - 1), std::clamp(row, 0, rows_ - 1))];
 }
 
 }  // namespace throng::render

@@ -1,5 +1,5 @@
-// How far each place on the ground is from what stands on it or hangs low above it: near things,
-// light varies.
+// The distance of each point of the ground from the walls and props on it or low above it, near
+// which light varies.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,18 +13,20 @@ namespace throng::render {
 
 class NearMap {
  public:
-  /// Of the edges of walls and props within `ground`.
+  /// Takes the edges of walls and props within `ground`.
   NearMap(const PlaceMeshes& meshes, const Eigen::AlignedBox2d& ground);
 
-  /// Distance (m) from the nearest thing; more than 20 m are not told apart.
+  /// Distance (m) from the nearest wall or prop, at most 20 m.
   float distance_m(float x, float y) const;
 
  private:
   void mark(const Eigen::Vector3f& from, const Eigen::Vector3f& to);
   void spread();
-  float& at(int column, int row) {
-    return distances_[static_cast<std::size_t>(row * columns_ + column)];
+  std::size_t cell_index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
   }
+  float& at(int column, int row) { return distances_[cell_index(column, row)]; }
 
   Eigen::Vector2f from_;
   float cell_m_ = 0.5F;

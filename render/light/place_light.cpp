@@ -1,5 +1,6 @@
 #include "render/light/place_light.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -40,8 +41,8 @@ struct Effort {
 };
 
 Effort effort_for(const QualitySettings& quality) {
-  if (!quality.textured) return {16, 12, 24, 8, 2.5};
-  return quality.supersampling > 1 ? Effort{144, 64, 96, 24, 0.7} : Effort{64, 32, 48, 12, 1};
+  if (!quality.textured) return {16, 8, 16, 8, 2.5};
+  return quality.supersampling > 1 ? Effort{144, 64, 96, 24, 0.7} : Effort{48, 20, 32, 10, 1};
 }
 
 struct Point {
@@ -79,20 +80,20 @@ class Points {
   std::vector<Point> all_;
 };
 
-std::vector<std::uint32_t> points_of(const SceneryMesh& mesh, const Eigen::AlignedBox2d& ground,
-                                     int paths, Points& points) {
+std::vector<std::uint32_t> list_points(const SceneryMesh& mesh, const Eigen::AlignedBox2d& ground,
+                                       int paths, Points& points) {
   constexpr double kNearM = 30;
   std::vector<std::uint32_t> used;
   used.reserve(mesh.vertices.size());
   for (const SceneryVertex& vertex : mesh.vertices) {
-    const Vector3f at = position_of(vertex);
+    const Vector3f at = vertex_position(vertex);
     const bool far = ground.exteriorDistance(Eigen::Vector2d(at.head<2>().cast<double>())) > kNearM;
-    used.push_back(far ? kInTheOpen : points.add({at, normal_of(vertex), paths, false}));
+    used.push_back(far ? kInTheOpen : points.add({at, vertex_normal(vertex), paths, false}));
   }
   return used;
 }
 
-std::vector<std::uint32_t> points_of(const PropMesh& mesh, const Effort& effort, Points& points) {
+std::vector<std::uint32_t> list_points(const PropMesh& mesh, const Effort& effort, Points& points) {
   constexpr std::size_t kCardCorners = 4;
   std::vector<std::uint32_t> used;
   used.reserve(mesh.vertices.size());
@@ -100,20 +101,26 @@ std::vector<std::uint32_t> points_of(const PropMesh& mesh, const Effort& effort,
     const PropVertex& vertex = mesh.vertices[i];
     const bool is_leaf = vertex.paint[3] == static_cast<std::uint8_t>(Finish::leaves);
     if (!is_leaf || i + kCardCorners > mesh.vertices.size()) {
-      used.push_back(points.add({position_of(vertex), normal_of(vertex), effort.props, false}));
+      used.push_back(
+          points.add({vertex_position(vertex), vertex_normal(vertex), effort.props, false}));
       continue;
     }
     // A card's corners share the light of its middle.
     Vector3f middle = Vector3f::Zero();
     Vector3f normal = Vector3f::Zero();
     for (std::size_t k = 0; k < kCardCorners; ++k) {
-      middle += 0.25F * position_of(mesh.vertices[i + k]);
-      normal += 0.25F * normal_of(mesh.vertices[i + k]);
+      middle += 0.25F * vertex_position(mesh.vertices[i + k]);
+      normal += 0.25F * vertex_normal(mesh.vertices[i + k]);
     }
     used.insert(used.end(), kCardCorners, points.add({middle, normal, effort.leaves, true}));
     i += kCardCorners - 1;
   }
   return used;
+}
+
+template <typename Vertex>
+std::vector<std::uint32_t> in_the_open(const std::vector<Vertex>& vertices) {
+  return std::vector<std::uint32_t>(vertices.size(), kInTheOpen);
 }
 
 void append(std::string& bytes, std::span<const float> values) {
@@ -122,9 +129,9 @@ void append(std::string& bytes, std::span<const float> values) {
                values.size_bytes());
 }
 
-std::string key_of(const RayScene& rays, const Environment& environment, const Daylight& day,
-                   const std::vector<Lamp>& lamps, const Points& points, const ProbeGrid& probes,
-                   int air_paths) {
+std::string light_key(const RayScene& rays, const Environment& environment, const Daylight& day,
+                      const std::vector<Lamp>& lamps, const Points& points, const ProbeGrid& probes,
+                      int air_paths) {
   std::string bytes(kVersion);
   bytes += rays.fingerprint();
   const auto add = [&](double value) {
@@ -166,7 +173,8 @@ std::vector<float> bake(const LightRays& light, const Points& points, const Prob
       if (point.is_leaf) {
         // Light goes through leaves and around their sides.
         constexpr float kThrough = 0.6F;
-        const auto field = light.field(point.position, point.paths);
+        constexpr float kTwigM = 0.5F;  // the card's own twig, whose leaves are many
+        const auto field = light.field(point.position, point.paths, kTwigM);
         if (field) received = field->received(kThrough * point.normal);
       } else {
         received = light.received(point.position, point.normal, point.paths);
@@ -204,7 +212,7 @@ void set_light(std::span<const float> values, float exposure, const LightField& 
                std::vector<Vertex>& vertices) {
   std::vector<bool> known(vertices.size(), true);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    Array3f light = open.received(normal_of(vertices[i]));
+    Array3f light = open.received(vertex_normal(vertices[i]));
     if (used[i] != kInTheOpen) {
       const float* at = &values[3 * std::size_t{used[i]}];
       known[i] = at[0] >= 0;
@@ -269,21 +277,25 @@ ProbeGrid light_place(const world::Scenario& scenario, const Environment& enviro
   add_place(meshes, scenario, (day.lamps / day.exposure).cast<float>(), rays);
   cut_meshes(ground, effort.scale, meshes);
 
+  // Nothing stands in the way on an empty field: its light is that of the open.
+  const bool is_empty = meshes.scenery.walls.count == 0 &&
+                        std::none_of(meshes.props.begin(), meshes.props.end(),
+                                     [](const PlacedProp& prop) { return !prop.is_backdrop; });
   Points points;
   const std::vector<std::uint32_t> scenery =
-      points_of(meshes.scenery, ground, effort.scenery, points);
+      is_empty ? in_the_open(meshes.scenery.vertices)
+               : list_points(meshes.scenery, ground, effort.scenery, points);
   std::vector<std::vector<std::uint32_t>> props;
   for (const PlacedProp& prop : meshes.props) {
-    props.push_back(prop.is_backdrop
-                        ? std::vector<std::uint32_t>(prop.mesh.vertices.size(), kInTheOpen)
-                        : points_of(prop.mesh, effort, points));
+    props.push_back(prop.is_backdrop ? in_the_open(prop.mesh.vertices)
+                                     : list_points(prop.mesh, effort, points));
   }
-  ProbeGrid probes(ground, true);
+  ProbeGrid probes(ground, !is_empty);
   const SkyLight sky(environment, day);
   const LightRays light(rays, sky, day, lamps);
   const std::size_t surface = 3 * points.all().size();
   const std::vector<float> values =
-      load_or_make(folder, key_of(rays, environment, day, lamps, points, probes, effort.air),
+      load_or_make(folder, light_key(rays, environment, day, lamps, points, probes, effort.air),
                    surface + ProbeGrid::kFloatsEach * probes.size(),
                    [&] { return bake(light, points, probes, effort.air); });
 

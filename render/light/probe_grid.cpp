@@ -38,9 +38,9 @@ Eigen::Vector3f ProbeGrid::position(std::size_t probe) const {
     return {middle.x(), middle.y(), kOpenM};
   }
   const auto column = static_cast<int>(probe % layer);
+  const int row = column / count_.x();
   return {from_.x() + spacing_m_ * static_cast<float>(column % count_.x()),
-          from_.y() + spacing_m_ * static_cast<float>(column / count_.x()),
-          kHeightsM.at(probe / layer)};
+          from_.y() + spacing_m_ * static_cast<float>(row), kHeightsM.at(probe / layer)};
 }
 
 void ProbeGrid::set(const std::vector<std::optional<LightField>>& fields) {
@@ -58,7 +58,8 @@ void ProbeGrid::set(const std::vector<std::optional<LightField>>& fields) {
       float count = 0;
       for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) {
         if (x + dx < 0 || x + dx >= count_.x() || y + dy < 0 || y + dy >= count_.y()) continue;
-        const auto& near = known[static_cast<std::size_t>(i + dx + dy * count_.x())];
+        const auto& near =
+            known[static_cast<std::size_t>(i) + static_cast<std::size_t>(dx + dy * count_.x())];
         if (!near) continue;
         sum.even += near->even;
         sum.toward += near->toward;
@@ -84,7 +85,8 @@ LightField ProbeGrid::at(const Eigen::Vector3f& point) const {
     const auto probe = [&](int dx, int dy) -> const LightField& {
       const int x = std::min(cell.x() + dx, count_.x() - 1);
       const int y = std::min(cell.y() + dy, count_.y() - 1);
-      return fields_[static_cast<std::size_t>(level * layer + y * count_.x() + x)];
+      return fields_[static_cast<std::size_t>(level) * static_cast<std::size_t>(layer) +
+                     static_cast<std::size_t>(y * count_.x() + x)];
     };
     return mixed(mixed(probe(0, 0), probe(1, 0), share.x()),
                  mixed(probe(0, 1), probe(1, 1), share.x()), share.y());

@@ -1,4 +1,4 @@
-// What rays of light meet: the triangles of a place with their albedo and own light, in an
+// The scene of the rays of light: the triangles of a place with their albedo and own light, in an
 // acceleration structure of Embree.
 #pragma once
 
@@ -51,10 +51,12 @@ class RayScene {
   /// Ends the adding. Throws EnvironmentError if there is no memory for it.
   void build();
 
-  std::optional<RayHit> trace(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const;
-  /// Whether nothing lies within `distance_m` in a direction.
-  bool is_free(const Eigen::Vector3f& from, const Eigen::Vector3f& direction,
-               float distance_m) const;
+  /// The first surface on a ray, `skipped_m` away or more.
+  std::optional<RayHit> trace(const Eigen::Vector3f& from, const Eigen::Vector3f& direction,
+                              float skipped_m = 0) const;
+  /// Whether nothing lies between these distances in a direction.
+  bool is_free(const Eigen::Vector3f& from, const Eigen::Vector3f& direction, float distance_m,
+               float skipped_m = 0) const;
 
   /// All that the answers depend on, for the name of what is computed from them.
   std::string fingerprint() const;

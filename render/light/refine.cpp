@@ -24,7 +24,7 @@ std::array<float, 3> mean_normal(const std::array<float, 3>& a, const std::array
 
 }  // namespace
 
-SceneryVertex middle_of(const SceneryVertex& a, const SceneryVertex& b) {
+SceneryVertex middle_vertex(const SceneryVertex& a, const SceneryVertex& b) {
   SceneryVertex middle = a;
   middle.position = mean(a.position, b.position);
   middle.normal = mean_normal(a.normal, b.normal);
@@ -32,7 +32,7 @@ SceneryVertex middle_of(const SceneryVertex& a, const SceneryVertex& b) {
   return middle;
 }
 
-PropVertex middle_of(const PropVertex& a, const PropVertex& b) {
+PropVertex middle_vertex(const PropVertex& a, const PropVertex& b) {
   PropVertex middle = a;
   middle.position = mean(a.position, b.position);
   middle.normal = mean_normal(a.normal, b.normal);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -15,8 +16,8 @@
 namespace throng::render {
 
 /// The vertex in the middle of an edge.
-SceneryVertex middle_of(const SceneryVertex& a, const SceneryVertex& b);
-PropVertex middle_of(const PropVertex& a, const PropVertex& b);
+SceneryVertex middle_vertex(const SceneryVertex& a, const SceneryVertex& b);
+PropVertex middle_vertex(const PropVertex& a, const PropVertex& b);
 
 /// Returns the triangles of `indices`, cut until `is_long(a, b)` holds for no edge; new vertices
 /// are appended.
@@ -31,11 +32,11 @@ std::vector<std::uint32_t> refined(std::span<const std::uint32_t> indices,
   };
   std::map<Edge, std::uint32_t> middles;
   // The middle of an edge that is long, else its first end.
-  const auto cut = [&](std::uint32_t a, std::uint32_t b, int depth) {
-    if (depth >= kMaxDepth || !is_long(vertices[a], vertices[b])) return a;
+  const auto cut = [&](std::uint32_t a, std::uint32_t b, int cuts_before) {
+    if (cuts_before >= kMaxDepth || !is_long(vertices[a], vertices[b])) return a;
     const auto [found, is_new] =
         middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(vertices.size()));
-    if (is_new) vertices.push_back(middle_of(vertices[a], vertices[b]));
+    if (is_new) vertices.push_back(middle_vertex(vertices[a], vertices[b]));
     return found->second;
   };
   std::vector<std::uint32_t> out;
@@ -43,7 +44,9 @@ std::vector<std::uint32_t> refined(std::span<const std::uint32_t> indices,
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
     left.push_back({indices[i], indices[i + 1], indices[i + 2], 0});
     while (!left.empty()) {
-      const auto [a, b, c, depth] = left.back();
+      const Triangle triangle = left.back();
+      const auto [a, b, c] = std::array{triangle.a, triangle.b, triangle.c};
+      const int depth = triangle.depth;
       left.pop_back();
       const std::uint32_t ab = cut(a, b, depth);
       const std::uint32_t bc = cut(b, c, depth);

@@ -46,7 +46,7 @@ double zenith_chromaticity(const std::array<std::array<double, 4>, 3>& terms, do
 }
 
 /// Linear sRGB of CIE xyY.
-Array3d rgb_of(double x, double y, double luminance) {
+Array3d linear_rgb(double x, double y, double luminance) {
   const double big_x = x / y * luminance;
   const double big_z = (1 - x - y) / y * luminance;
   return Array3d(3.2406 * big_x - 1.5372 * luminance - 0.4986 * big_z,
@@ -75,7 +75,7 @@ class ClearSky {
       return perez(c, direction.z(), gamma) /
              perez(c, 1, std::acos(std::clamp(sun_.z(), 0.0, 1.0)));
     };
-    return rgb_of(x_zenith_ * relative(x_), y_zenith_ * relative(y_), relative(luminance_));
+    return linear_rgb(x_zenith_ * relative(x_), y_zenith_ * relative(y_), relative(luminance_));
   }
 
  private:
@@ -99,7 +99,7 @@ class ClearSky {
                                       {-0.0109, 0.0529}}});
 };
 
-Vector3d direction_of(int row, int column) {
+Vector3d sky_direction(int row, int column) {
   const double sine = (row + 0.5) / kRows;
   const double azimuth = 2 * std::numbers::pi * (column + 0.5) / kColumns;
   const double level = std::sqrt(1 - sine * sine);
@@ -110,8 +110,8 @@ Vector3d direction_of(int row, int column) {
 Array3d relative_radiance(const Environment& environment, const Daylight& day,
                           const Vector3d& direction) {
   if (day.soft) {
-    // Of (1 + 2 sin h) / 3, 4/7 of the light on level ground comes with the sine; 0.3 of the whole
-    // is the soft light from above that Daylight::sun holds.
+    // The terms of (1 + 2 sin h) / 3 bring 3/7 and 4/7 of the light on level ground; 0.3 of the
+    // whole is the soft light from above that Daylight::sun holds.
     constexpr double kEven = 3.0 / 7;
     constexpr double kWithSine = 4.0 / 7 - 0.3;
     return Array3d::Constant(kEven + 1.5 * kWithSine * direction.z());
@@ -133,7 +133,7 @@ SkyLight::SkyLight(const Environment& environment, const Daylight& day)
   relative.reserve(table_.size());
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      const Vector3d direction = direction_of(row, column);
+      const Vector3d direction = sky_direction(row, column);
       relative.push_back(relative_radiance(environment, day, direction));
       received += direction.z() * relative.back();
       weight += direction.z();
@@ -148,7 +148,7 @@ const Eigen::Array3f& SkyLight::radiance(const Eigen::Vector3f& direction) const
   const float turn = std::atan2(direction.y(), direction.x()) / (2 * std::numbers::pi_v<float>);
   const int column =
       std::clamp(static_cast<int>((turn - std::floor(turn)) * kColumns), 0, kColumns - 1);
-  return table_[static_cast<std::size_t>(row * kColumns + column)];
+  return table_[static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)];
 }
 
 }  // namespace throng::render

@@ -25,7 +25,7 @@ RaySurface matt(const Array3f& albedo) {
 }
 
 /// The building's number, which the shaders derive its colors from.
-int key_of(const SceneryVertex& vertex) { return static_cast<int>(vertex.id & 0xFFFFU); }
+int building_key(const SceneryVertex& vertex) { return static_cast<int>(vertex.id & 0xFFFFU); }
 
 /// render_color() of shaders/wall.frag.glsl.
 Array3f plaster(double pick) {
@@ -39,11 +39,11 @@ Array3f plaster(double pick) {
 
 RaySurface ground_surface(std::string_view material) {
   static const std::array<std::pair<std::string_view, Array3f>, 8> kMeans = {{
-      {"pavers", {0.310F, 0.292F, 0.265F}},
-      {"asphalt", {0.152F, 0.150F, 0.147F}},
+      {"pavers", {0.340F, 0.319F, 0.289F}},
+      {"asphalt", {0.168F, 0.166F, 0.163F}},
       {"grass", {0.118F, 0.140F, 0.053F}},
-      {"concrete", {0.388F, 0.379F, 0.356F}},
-      {"dirt", {0.240F, 0.190F, 0.126F}},
+      {"concrete", {0.410F, 0.400F, 0.375F}},
+      {"dirt", {0.257F, 0.201F, 0.133F}},
       {"kerb", {0.450F, 0.445F, 0.430F}},
       {"paint", {0.490F, 0.490F, 0.466F}},
       {"surroundings", {0.155F, 0.160F, 0.080F}},
@@ -57,7 +57,7 @@ RaySurface ground_surface(std::string_view material) {
 RaySurface wall_surface(const SceneryVertex& vertex, const Array3f& lamp_color) {
   constexpr float kWindow = 3.0e-4F;  // also in shaders/wall.frag.glsl
   const float height = vertex.local[3];
-  const int key = key_of(vertex);
+  const int key = building_key(vertex);
   const auto kind = static_cast<int>(std::lround(vertex.facade));
   const auto shining = [&](const Array3f& albedo, float share) {
     RaySurface surface = matt(albedo);
@@ -87,7 +87,7 @@ RaySurface wall_surface(const SceneryVertex& vertex, const Array3f& lamp_color) 
 
 RaySurface roof_surface(const SceneryVertex& vertex) {
   if (vertex.facade > 7.5F) return matt({0.020F, 0.036F, 0.011F});
-  const auto tone = static_cast<float>(cell_hash({key_of(vertex), 17}));
+  const auto tone = static_cast<float>(cell_hash({building_key(vertex), 17}));
   return matt(Array3f(0.27F, 0.26F, 0.25F) * (1 - tone) + Array3f(0.36F, 0.33F, 0.29F) * tone);
 }
 

@@ -6,12 +6,12 @@
 namespace throng::render {
 
 template <typename Vertex>
-Eigen::Vector3f position_of(const Vertex& vertex) {
+Eigen::Vector3f vertex_position(const Vertex& vertex) {
   return Eigen::Vector3f(vertex.position.data());
 }
 
 template <typename Vertex>
-Eigen::Vector3f normal_of(const Vertex& vertex) {
+Eigen::Vector3f vertex_normal(const Vertex& vertex) {
   return Eigen::Vector3f(vertex.normal.data());
 }
 

@@ -29,11 +29,6 @@ bool is_round(world::PropKind kind) {
          kind == PropKind::bin || kind == PropKind::bollard || kind == PropKind::bush;
 }
 
-/// Whether a prop is a roof on posts, which the sky's light reaches from the sides.
-bool is_roof_on_posts(world::PropKind kind) {
-  return kind == world::PropKind::tent || kind == world::PropKind::stall;
-}
-
 }  // namespace
 
 ContactPass::Rim ContactPass::rim(const Vector2d& middle, const Vector2d& half_size, double yaw_rad,
@@ -55,52 +50,17 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
   for (const world::Prop& prop : scenario.props) {
     const Vector2d half =
         prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
-    if (is_roof_on_posts(prop.kind)) {
-      add_roof_on_posts(prop, half);
-      continue;
-    }
+    // Roofs on posts have none: the light that they take is baked.
+    if (prop.kind == world::PropKind::tent || prop.kind == world::PropKind::stall) continue;
     still_.push_back(
-        rim(prop.position, 0.9 * half, prop.yaw_rad, contact_reach_m(prop.kind), 1.1 * strength_));
+        rim(prop.position, 0.9 * half, prop.yaw_rad, contact_reach_m(prop.kind), 0.7 * strength_));
     if (is_round(prop.kind)) still_.back().rounding_m = still_.back().footprint[2];
   }
   if (light.lamps_on) lamps_ = all_lamps(scenario);
-  constexpr double kWallReachM = 0.9;
-  for (const world::Building& building : scenario.buildings) {
-    for (std::size_t i = 0; i < building.footprint.size(); ++i) {
-      const Vector2d& from = building.footprint[i];
-      const Vector2d edge = building.footprint[(i + 1) % building.footprint.size()] - from;
-      still_.push_back(rim(from + 0.5 * edge, {0.5 * edge.norm(), 0},
-                           std::atan2(edge.y(), edge.x()), kWallReachM, 0.7 * strength_));
-    }
-  }
   describe_vertices(array_, 0, instances_, sizeof(Rim), 1,
                     {{0, 4, GL_FLOAT, false, offsetof(Rim, footprint)},
                      {1, 4, GL_FLOAT, false, offsetof(Rim, shade)},
                      {2, 1, GL_FLOAT, false, offsetof(Rim, rounding_m)}});
-}
-
-// Darkest below its middle and fading outward, without an edge; and dark around what stands on the
-// ground: posts, and a stall's counter.
-void ContactPass::add_roof_on_posts(const world::Prop& prop, const Vector2d& half) {
-  const double narrow = half.minCoeff();
-  still_.push_back(rim(prop.position, 0.5 * half, prop.yaw_rad, 1.1 * narrow, 0.75 * strength_));
-  still_.back().rounding_m = static_cast<float>(0.5 * narrow);
-  const Eigen::Rotation2Dd turn(prop.yaw_rad);
-  const auto at = [&](double x, double y) -> Vector2d {
-    return prop.position + turn * Vector2d(x, y);
-  };
-  constexpr double kPostM = 0.05;
-  constexpr double kPostReachM = 0.22;
-  for (const double x : {-0.96, 0.96}) {
-    for (const double y : {-0.94, 0.94}) {
-      still_.push_back(rim(at(x * half.x(), y * half.y()), {kPostM, kPostM}, prop.yaw_rad,
-                           kPostReachM, strength_));
-    }
-  }
-  if (prop.kind != world::PropKind::stall) return;
-  const Vector2d counter = prop.scale * Vector2d(1.38, 0.33);
-  still_.push_back(
-      rim(at(0, -0.55 * prop.scale), counter, prop.yaw_rad, 0.3 * prop.scale, strength_));
 }
 
 // A lamp's shadow is as long as its height over the person's says, and wide: lamps are no points,

@@ -1,5 +1,5 @@
-// Contact shadows: dark rims on the ground around people, props and walls, which occlude the sky.
-// Without them, objects in the shade seem to float.
+// Contact shadows: dark rims on the ground around people and the feet of props, finer than the
+// baked light (render/light). Without them, objects in the shade seem to float.
 #pragma once
 
 #include <array>
@@ -33,14 +33,11 @@ class ContactPass {
   static Rim rim(const Eigen::Vector2d& middle, const Eigen::Vector2d& half_size, double yaw_rad,
                  double reach_m, double strength);
 
-  /// Adds the shade below a tent or stall with these half sizes (m).
-  void add_roof_on_posts(const world::Prop& prop, const Eigen::Vector2d& half);
-
   /// Adds the soft shadows that the lamps around a person cast on the ground.
   void add_lamp_shadows(const PersonInstance& person);
 
   std::vector<Lamp> lamps_;  ///< empty by day
-  std::vector<Rim> still_;   ///< rims of props and walls
+  std::vector<Rim> still_;   ///< rims of props
   std::vector<Rim> rims_;    ///< rims of the current frame
   double strength_;
   Buffer instances_;

@@ -21,15 +21,15 @@ Array3d mixed(const Array3d& a, const Array3d& b, double share) {
 }
 
 /// The clear sky's light on level ground as a share of a high sun's. Above 10 degrees a straight
-/// line, a fifth of the sun's light at 45 degrees as under a clean sky; below, the logarithm of the
-/// illuminances of sunset and twilight (about 600, 50 and 3.4 lux at 0, -3 and -6 degrees:
-/// Seidelmann (ed.), Explanatory Supplement to the Astronomical Almanac, 1992, table of ground
-/// illumination), down to the glow of a town.
+/// line, a quarter of the sun's light at 45 degrees as in the air of most days; below, the
+/// logarithm of the illuminances of sunset and twilight (about 600, 50 and 3.4 lux at 0, -3 and -6
+/// degrees: Seidelmann (ed.), Explanatory Supplement to the Astronomical Almanac, 1992, table of
+/// ground illumination), down to the glow of a town.
 double sky_strength(double elevation_rad) {
   const double degrees = elevation_rad / kDegree;
-  if (degrees >= 10) return 0.33 + 0.27 * std::sin(elevation_rad);
+  if (degrees >= 10) return 0.41 + 0.34 * std::sin(elevation_rad);
   constexpr std::array<std::array<double, 2>, 6> kTable = {
-      {{-8, kTownGlow}, {-6, 2.4e-4}, {-3, 2.3e-3}, {0, 0.028}, {5, 0.21}, {10, 0.3769}}};
+      {{-8, kTownGlow}, {-6, 2.4e-4}, {-3, 2.3e-3}, {0, 0.028}, {5, 0.26}, {10, 0.4690}}};
   if (degrees <= kTable.front()[0]) return kTable.front()[1];
   std::size_t i = 0;
   while (degrees > kTable[i + 1][0]) ++i;
@@ -140,7 +140,8 @@ void color_the_air(const Environment& environment, Daylight& light) {
   }
   const double setting =
       geometry::smoothstep(-5, 0.5, degrees) * (1 - geometry::smoothstep(3, 14, degrees));
-  constexpr double kClearAfternoon = 0.265;  // the exposed sky's light, the sun at 45 degrees
+  constexpr double kClearAfternoon =
+      0.265;  // some of the exposed sky's light, the sun at 45 degrees
   // A setting sun's sky keeps its color below the film's white.
   const double level = std::min(received / kClearAfternoon, 1.3 - 0.4 * setting);
   const Array3d day(0.62, 0.70, 0.80);

@@ -71,10 +71,14 @@ std::vector<Lamp> all_lamps(const world::Scenario& scenario) {
 }
 
 double lamp_strength(const Lamp& lamp, double distance_m, double up) {
-  // Street lamps throw their light wide, and none above the horizontal.
-  const double down = std::sqrt(std::max(up, 0.0));
+  // Street lamps throw their light wide, and little of it above the horizontal.
+  constexpr double kUpwards = 0.1;
+  const double down = std::max(std::sqrt(std::max(up, 0.0)), kUpwards);
   const double rim = 1 - std::pow(distance_m / kLampReachM, 4);
-  return lamp.strength * kStrengthM2 * down * rim * rim / (distance_m * distance_m);
+  // A lamp is no point: what hangs on its wall is not lit without limit.
+  constexpr double kSizeM = 0.7;
+  return lamp.strength * kStrengthM2 * down * rim * rim /
+         (distance_m * distance_m + kSizeM * kSizeM);
 }
 
 }  // namespace throng::render

@@ -19,11 +19,7 @@ constexpr double kWhite = 2.2;
 /// As in shaders/light.glsl, where the source stands.
 double film_response(double radiance, double black) {
   const double x = std::max(radiance - black, 0.0);
-  return x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
-}
-
-double film(double radiance, double black) {
-  return std::min(film_response(radiance, black) / film_response(kWhite, black), 1.0);
+  return x * (6.2 * x + 0.6) / (x * (6.2 * x + 1.7) + 0.06);
 }
 
 /// The radiance that the film shows as each byte.
@@ -96,6 +92,10 @@ class Histogram {
 };
 
 }  // namespace
+
+double film(double radiance, double black) {
+  return std::min(film_response(radiance, black) / film_response(kWhite, black), 1.0);
+}
 
 camera::Camera metering_camera(const camera::Camera& camera) {
   constexpr int kWidth = 64;

@@ -9,6 +9,10 @@
 
 namespace throng::render {
 
+/// The share of white, encoded as sRGB, that the film shows of a radiance; as film() of
+/// shaders/light.glsl. `black` is Daylight::film_black.
+double film(double radiance, double black);
+
 /// A pinhole camera with few pixels and the view of `camera`, limited to 100 degrees.
 camera::Camera metering_camera(const camera::Camera& camera);
 

@@ -17,7 +17,7 @@ namespace throng::render {
 
 namespace {
 
-Eigen::AlignedBox2d outline_of(const PropMesh& mesh) {
+Eigen::AlignedBox2d mesh_outline(const PropMesh& mesh) {
   Eigen::AlignedBox2d outline;
   for (const PropVertex& vertex : mesh.vertices) {
     outline.extend(Eigen::Vector2d(vertex.position[0], vertex.position[1]));
@@ -38,7 +38,7 @@ std::vector<PlacedProp> place_props(const world::Scenario& scenario, bool semant
   }
   for (const world::PlacedMesh& mesh : scenario.meshes) {
     props.push_back({.mesh = mesh_from_file(mesh, id_of(mesh.semantic_class)), .closed = false});
-    taken.push_back(outline_of(props.back().mesh));
+    taken.push_back(mesh_outline(props.back().mesh));
     ++id;
   }
   for (const world::Disaster& disaster : scenario.disasters) {

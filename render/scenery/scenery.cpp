@@ -17,7 +17,7 @@ namespace throng::render {
 
 namespace {
 
-constexpr double kGroundCellM = 4;       // refined where light varies (render/light/refine.h)
+constexpr double kGroundCellM = 2;       // cut where light varies (render/light/cut_meshes.h)
 constexpr double kSurroundingsM = 3000;  // how far the plain goes
 
 std::array<float, 3> three(double x, double y, double z) {

@@ -20,7 +20,7 @@ struct SceneryVertex {
   std::array<float, 4> local{};
   std::uint32_t id = 0;  ///< value in the id buffer
   float facade = 0;      ///< walls: value of world::Facade or WallLook
-  /// What a white surface receives here from sky, lamps and bounces (render/light/place_light.h).
+  /// Light from sky, lamps and bounces on a white surface here (render/light/place_light.h).
   std::array<float, 3> light{};
 };
 

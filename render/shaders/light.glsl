@@ -174,10 +174,10 @@ vec3 embers(vec3 world, float burned, float grain) {
 #endif
 
 // A film's response, which contains the display's gamma: the rational fit by Hejl and
-// Burgess-Dawson (2010), with a darker black (0.004 there).
+// Burgess-Dawson (2010), with a darker black and brighter shadows (0.004 and 0.5 there).
 vec3 film_response(vec3 radiance) {
   vec3 x = max(radiance - light.sky.w, 0.0);
-  return (x * (6.2 * x + 0.5)) / (x * (6.2 * x + 1.7) + 0.06);
+  return (x * (6.2 * x + 0.6)) / (x * (6.2 * x + 1.7) + 0.06);
 }
 
 // Linear radiance to sRGB. kWhite is the radiance that the display shows as white, so high that a

@@ -15,7 +15,7 @@ import unittest
 from built_image import ROOT, ImageTest
 from service import wait_until
 
-MAX_MB = 550
+MAX_MB = 600
 
 
 def grid_table():

@@ -86,8 +86,7 @@ std::vector<Face> list_ground_layers(const world::Scenario& scenario) {
   SceneryMesh mesh;
   std::vector<Face> faces;
   std::map<std::string, std::uint32_t> ids;
-  const auto open = [](const Vector2d& /*place*/) { return 1.0F; };
-  for (const GroundLayer& layer : add_ground_layers(scenario, open, mesh)) {
+  for (const GroundLayer& layer : add_ground_layers(scenario, mesh)) {
     const std::size_t first = faces.size();
     add_faces(mesh, layer.range.first, layer.range.count, layer.material, faces);
     const std::uint32_t id = ids.try_emplace(layer.material, ids.size()).first->second;

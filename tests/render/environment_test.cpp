@@ -148,9 +148,9 @@ TEST(Daylight, TwilightIsContinuous) {
   }
 }
 
-TEST(Daylight, AClearSkyGivesAFifthOfTheSunsLightAt45Degrees) {
+TEST(Daylight, AClearSkyGivesAQuarterOfTheSunsLightAt45Degrees) {
   const Daylight light = daylight(weather(Weather::clear, 45));
-  EXPECT_NEAR((light.sun * light.direction.z()).mean() / light.sky.mean(), 5, 0.25);
+  EXPECT_NEAR((light.sun * light.direction.z()).mean() / light.sky.mean(), 4, 0.2);
 }
 
 TEST(Film, SunlitWhiteIsJustBelowTheFilmsAndBlackIsBlack) {
@@ -175,15 +175,6 @@ TEST(Film, SunlitWhiteIsJustBelowTheFilmsAndBlackIsBlack) {
   EXPECT_GT(white, 3 * 235);
   EXPECT_LT(white, 3 * 255) << "only glints are cut off";
   EXPECT_LT(shoulders(0).first, 3 * 20);
-}
-
-TEST(Lamps, DoNotShineThroughWalls) {
-  const world::Scenario scenario = open_ground({block(0, 6, -5, 5, 8), block(-8, -6, -5, 5, 8)});
-  const Lamp lamp{{-0.4, 0, 4.2}, {-1, 0}};
-  EXPECT_GT(lamp_light_at(scenario, {lamp}, {-3, 0}).w(), 0);
-  EXPECT_EQ(lamp_light_at(scenario, {lamp}, {-10, 0}).w(), 0) << "behind the other building";
-  EXPECT_EQ(lamp_light_at(scenario, {lamp}, {8, 0}).w(), 0) << "behind its own wall";
-  EXPECT_EQ(lamp_light_at(scenario, {lamp}, {-3, 39}).w(), 0) << "out of reach";
 }
 
 TEST(Smoke, HidesFromTheEyeAndNotFromTheGroundTruth) {

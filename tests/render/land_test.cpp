@@ -271,8 +271,7 @@ TEST(GroundLayers, KnowHowFarTheOutlineOfAWideAreaIs) {
     world::Scenario scenario = open_ground();
     scenario.areas = {{{{-10, 0}, {10, 0}, {10, width_m}, {-10, width_m}}, "grass", false}};
     SceneryMesh mesh;
-    add_ground_layers(
-        scenario, [](const Vector2d&) { return 1.0F; }, mesh);
+    add_ground_layers(scenario, mesh);
     float most = 0;
     for (const SceneryVertex& vertex : mesh.vertices) most = std::max(most, vertex.local[1]);
     // No triangle lies on the outline with all of its corners.
@@ -297,8 +296,7 @@ TEST(GroundLayers, ThatMeetHaveHeightsOfTheirOwn) {
   }
   scenario.areas.push_back({{{-20, 3}, {20, 3}, {20, 6}, {-20, 6}}, "grass", false});
   SceneryMesh mesh = scenery_mesh(scenario);
-  const auto layers = add_ground_layers(
-      scenario, [](const Vector2d&) { return 1.0F; }, mesh);
+  const auto layers = add_ground_layers(scenario, mesh);
   const auto height = [&](const GroundLayer& layer) {
     return mesh.vertices[mesh.indices[layer.range.first]].position[2];
   };

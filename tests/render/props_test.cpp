@@ -197,7 +197,8 @@ TEST(Props, CastShadows) {
     return sum / 5;
   };
   EXPECT_GT(darkened(-4), 60) << "the crown's shadow, as far away as it is high";
-  EXPECT_NEAR(darkened(5), 0, 3) << "towards the sun";
+  EXPECT_NEAR(darkened(5), 0, 8)
+      << "towards the sun, less of the sky, but for light from the trunk";
 }
 
 // The sky that a round foot hides is hidden from a ring around it, not from a square.
@@ -221,8 +222,8 @@ TEST(Props, DarkenTheGroundAroundARoundFootEquallyOnAllSides) {
     return brightness(before, x, y) - brightness(after, x, y);
   };
   for (const double turn_deg : {0.0, 30.0, 45.0, 60.0, 135.0, 250.0}) {
-    EXPECT_NEAR(darkened(2.85, turn_deg), 0, 15) << turn_deg;
-    EXPECT_NEAR(darkened(3.1, turn_deg), 0, 15) << turn_deg;
+    EXPECT_NEAR(darkened(2.85, turn_deg), 15, 15) << turn_deg;
+    EXPECT_NEAR(darkened(3.1, turn_deg), 10, 15) << turn_deg;
   }
 }
 

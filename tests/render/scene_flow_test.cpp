@@ -12,11 +12,11 @@
 namespace throng::render {
 namespace {
 
-constexpr RenderOptions kAllMotion = {.quality = Quality::draft,
-                                      .flow = true,
-                                      .flow_backward = true,
-                                      .flow_depth = true,
-                                      .scene_flow = true};
+const RenderOptions kAllMotion = {.quality = Quality::draft,
+                                  .flow = true,
+                                  .flow_backward = true,
+                                  .flow_depth = true,
+                                  .scene_flow = true};
 
 Eigen::Vector3f motion_at(const Frame& frame, std::size_t pixel) {
   return {frame.scene_flow_m[3 * pixel], frame.scene_flow_m[3 * pixel + 1],

@@ -129,7 +129,7 @@ Counts compared(const Frame& frame) {
   return counts;
 }
 
-constexpr RenderOptions kSemantic{.semantic = true};
+const RenderOptions kSemantic{.semantic = true};
 
 TEST(SurfaceClasses, AreThoseOfThePlaceInEveryQuality) {
   const camera::Camera oblique = camera_at({-5, -38, 22}, 90, -28, 640, 480, 80);

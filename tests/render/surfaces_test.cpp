@@ -11,7 +11,7 @@
 namespace throng::render {
 namespace {
 
-constexpr RenderOptions kEverything = {
+const RenderOptions kEverything = {
     .quality = Quality::draft, .normals = true, .flow = true, .parts = true};
 
 Eigen::Vector3d normal_at(const Frame& frame, int x, int y) {

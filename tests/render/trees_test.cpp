@@ -101,10 +101,13 @@ TEST(Trees, LightFallsThroughTheirCrowns) {
   EXPECT_GT(static_cast<double>(changes) / rows, 6);
 }
 
-TEST(Trees, AreNotBlackAtNight) {
+TEST(Trees, AreNotBlackBesideALampAtNight) {
   Environment night;
   night.sun_elevation_rad = -30 * kDegree;
-  Stage stage(with_props({tree(4)}), night);
+  world::Prop lamp;
+  lamp.kind = world::PropKind::lamp_post;
+  lamp.position = {-5, 2};
+  Stage stage(with_props({tree(4), lamp}), night);
   const Frame frame = stage.draw(camera_at({-9, 0, 5}, 0, -10, 320, 240));
   double sum = 0;
   int count = 0;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kHalfM = 0.5F;
 
-constexpr RenderOptions kAllOfThem = {
+const RenderOptions kAllOfThem = {
     .quality = Quality::draft, .normals = true, .flow = true, .parts = true, .whole_masks = true};
 
 class Umbrella : public ::testing::TestWithParam<Quality> {

@@ -205,6 +205,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   options.semantic = needs.semantic;
   options.whole_masks = needs.whole_masks;
   options.vehicles = needs.vehicles;
+  options.light_folder = folder.path() / "work" / "light";
   options.clock = clock ? &*clock : nullptr;
   render::Renderer renderer(scenario, population, environment.light, {}, options);
   FrameCapture frame_capture(job, seed, trace, population, renderer, options.clock);

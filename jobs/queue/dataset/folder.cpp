@@ -131,6 +131,7 @@ void JobFolder::remove_damaged() const {
   for (const auto& run : fs::directory_iterator(path_ / "work", error)) {
     if (run.path().filename() == "people") continue;  // heal_library_pin()
     if (!run.is_directory(error)) fs::remove_all(run.path(), error);
+    if (run.path().filename() == "light") continue;  // render::load_or_make()
     for (const auto& output : fs::directory_iterator(run.path(), error)) {
       if (is_damaged_output(output.path())) fs::remove_all(output.path(), error);
     }
