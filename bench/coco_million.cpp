@@ -11,6 +11,7 @@
 
 #include "annotate/people/coco.h"
 #include "annotate/people/keypoints.h"
+#include "annotate/people/labels.h"
 #include "base/files/files.h"
 #include "formats/export/exporter.h"
 #include "tests/annotate/synthetic_frame.h"

@@ -74,6 +74,21 @@ def weather(folder):
     call(RELEASE / "scripts/sheets/weather_sheet", folder / "run.h5", DOCS / "weather.jpg")
 
 
+def light(folder):
+    """Renderer and path tracer side by side."""
+    from PIL import Image
+
+    call(RELEASE / "scripts/sheets/light_sheet", folder, 256)
+    names = ["shopping_street_clear_1", "shopping_street_overcast_1", "shopping_street_night_1", "station_night_2"]
+    pairs = [[Image.open(folder / f"{name}{kind}.png").convert("RGB") for kind in ("", ".traced")] for name in names]
+    width, height = pairs[0][0].size
+    page = Image.new("RGB", (4 * width, 2 * height))
+    for i, pair in enumerate(pairs):
+        for k, image in enumerate(pair):
+            page.paste(image, ((i % 2 * 2 + k) * width, i // 2 * height))
+    page.save(DOCS / "light.jpg", quality=90)
+
+
 def scenarios(folder):
     """The sheet of each shipped scenario, and the table of docs/shipped_scenarios.md, which are of the same runs."""
     page = DOCS / "shipped_scenarios.md"
@@ -99,6 +114,7 @@ RENDERED = {
     "labels.jpg": labels,
     "semantic.jpg": semantic,
     "weather.jpg": weather,
+    "light.jpg": light,
     "people_sheet.jpg": people,
     "scenarios/generated.jpg": lambda _: call(SHEETS / "generated_sheet.py"),
     "scenarios/": scenarios,

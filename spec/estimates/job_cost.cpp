@@ -6,8 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #include <string_view>
+#include <tuple>
 
 #include "spec/estimates/task_memory.h"
 #include "spec/job/environment.h"
@@ -26,6 +30,7 @@ namespace {
 constexpr double kRunS = 0.4;      ///< simulation and figures: processes, place
 constexpr double kShardS = 2.9;    ///< driver, character library, place
 constexpr double kDatasetS = 0.2;  ///< of a job: collecting, hashing
+constexpr double kLightS = 2.5;    ///< the light of a place and an hour in `standard`
 constexpr double kLoadedPersonS = 0.0001;
 constexpr double kSimulatedSecondS = 0.027;
 constexpr double kPersonSecondS = 28e-6;          ///< of a person who is present, simulated
@@ -37,7 +42,10 @@ constexpr double kCloudsFactor = 1.25;  ///< light from everywhere, reflections 
 constexpr double kPreviewMegapixelS = 0.05;
 
 // Bytes of the job's folder, in which labels are twice: in the dataset and in the shards' outputs.
-constexpr double kRunBytes = 130e3;  ///< scenario in the trace, records of tasks
+constexpr double kRunBytes = 130e3;    ///< scenario in the trace, records of tasks
+constexpr double kLightBytes = 300e3;  ///< of the surfaces of a place
+constexpr double kLightProbeBytes = 24;
+constexpr double kMaxLightBytes = 64.0 * 1024 * 1024;
 constexpr double kTracePersonStepBytes = 14;
 constexpr double kFleeingPersonStepBytes = 22;
 constexpr double kStepsPerSecond = 10;
@@ -156,19 +164,52 @@ void add_run(const JobSpec& job, const RunPlan& run, const ExpectedRun& expected
   cost.images += job.frames_per_camera() * static_cast<std::int64_t>(job.drones.size());
 }
 
+/// The light that is baked for each place and hour of a job (render/light/place_light.h).
+class BakedLight {
+ public:
+  void add(const JobSpec& job, const RunPlan& run, const ExpectedRun& expected) {
+    if (job.drones.empty()) return;
+    const render::Environment sky = environment_of_run(job.environment, run.seed).light;
+    const std::uint64_t props_seed = job.props_density < 1 ? run.seed : 0;
+    if (!known_
+             .emplace(job.scenario, sky.sun_azimuth_rad, sky.sun_elevation_rad, sky.weather,
+                      props_seed)
+             .second)
+      return;
+    constexpr double kProbesPerM2 = 0.5;  // two layers, 2 m apart
+    constexpr double kMaxProbes = 12'000;
+    bytes +=
+        kLightBytes + kLightProbeBytes * std::min(kProbesPerM2 * expected.ground_m2, kMaxProbes);
+    cpu_s += kLightS * (job.quality == render::Quality::draft  ? 0.25
+                        : job.quality == render::Quality::high ? 3
+                                                               : 1);
+  }
+
+  double cpu_s = 0;
+  double bytes = 0;
+
+ private:
+  std::set<std::tuple<std::string, double, double, render::Weather, std::uint64_t>> known_;
+};
+
 }  // namespace
 
 JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected,
                       std::int64_t models_mib) {
   JobCost cost;
+  BakedLight light;
   cost.runs = job.runs;
   cost.cpu_s = kDatasetS;
   std::int64_t max_people = 0;
   for (const RunPlan& run : plan_runs(job)) {
     const ExpectedRun& of_run = expected.at(static_cast<std::size_t>(run.index));
-    add_run(job_of_run(job, run.index), run, of_run, cost);
+    const JobSpec own = job_of_run(job, run.index);
+    add_run(own, run, of_run, cost);
+    light.add(own, run, of_run);
     max_people = std::max(max_people, of_run.people);
   }
+  cost.cpu_s += light.cpu_s;
+  cost.disk_bytes += static_cast<std::int64_t>(std::min(light.bytes, kMaxLightBytes));
   cost.memory_mib = TaskMemory(job, {static_cast<int>(max_people), models_mib}).max_mib();
   return cost;
 }

@@ -91,7 +91,8 @@ class Check(FolderTest):
         # Of which the characters are most, and tests have fewer of them.
         self.assertGreater(answer["estimate"]["memory_mib"], 350)
         more = self.answer(runs=4, capture={"rate_hz": 2, "from_s": 1, "to_s": 5}, crowd={"agents": 20})
-        self.assertAlmostEqual(more["estimate"]["cpu_s"] / answer["estimate"]["cpu_s"], 2, delta=0.1)
+        # The light of the place is baked once for all runs.
+        self.assertAlmostEqual(more["estimate"]["cpu_s"] / answer["estimate"]["cpu_s"], 1.85, delta=0.15)
         self.assertGreater(
             self.answer(quality="high")["estimate"]["cpu_s"], self.answer(quality="draft")["estimate"]["cpu_s"]
         )
