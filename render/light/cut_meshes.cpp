@@ -100,6 +100,9 @@ void cut_meshes(const Eigen::AlignedBox2d& ground, double scale, PlaceMeshes& me
     meshes.scenery = scenery;
     meshes.layers = layers;
   }
+  // The dense meshes of users are fine enough.
+  const std::size_t uncut = count_triangles(meshes.props);
+  if (uncut > 4 * kMaxPropTriangles) return;
   const std::vector<PlacedProp> props = meshes.props;
   const std::size_t max_prop_triangles = count_triangles(props) + kMaxPropTriangles;
   for (auto side = static_cast<float>(2 * scale);

@@ -54,20 +54,27 @@ struct Point {
 
 constexpr std::uint32_t kInTheOpen = ~0U;
 
-/// Points whose light is wanted, each once, and which of them vertices use.
+/// Most points of a place: more than about these take longer than the few seconds that a place is
+/// worth, and lie closer than light varies.
+constexpr std::size_t kMaxPoints = 75'000;
+
+/// Points whose light is wanted, each once, and which of them vertices use. Those within `step_m`
+/// of each other with about the same normal are one.
 class Points {
  public:
+  explicit Points(float step_m) : step_m_(step_m), normal_step_(step_m > kFineM ? 0.3F : 0.02F) {}
+
   std::uint32_t add(const Point& point) {
     const auto round = [](float value, float step) {
       return static_cast<int>(std::lround(value / step));
     };
     // Layers of ground lie closer than the third number tells apart.
-    const std::array<int, 7> key = {round(point.position.x(), 0.01F),
-                                    round(point.position.y(), 0.01F),
-                                    round(point.position.z(), 0.04F),
-                                    round(point.normal.x(), 0.02F),
-                                    round(point.normal.y(), 0.02F),
-                                    round(point.normal.z(), 0.02F),
+    const std::array<int, 7> key = {round(point.position.x(), step_m_),
+                                    round(point.position.y(), step_m_),
+                                    round(point.position.z(), std::max(step_m_, 0.04F)),
+                                    round(point.normal.x(), normal_step_),
+                                    round(point.normal.y(), normal_step_),
+                                    round(point.normal.z(), normal_step_),
                                     point.paths};
     const auto [found, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(all_.size()));
     if (is_new) all_.push_back(point);
@@ -75,7 +82,11 @@ class Points {
   }
   const std::vector<Point>& all() const { return all_; }
 
+  static constexpr float kFineM = 0.01F;
+
  private:
+  float step_m_;
+  float normal_step_;
   std::map<std::array<int, 7>, std::uint32_t> known_;
   std::vector<Point> all_;
 };
@@ -121,6 +132,34 @@ std::vector<std::uint32_t> list_points(const PropMesh& mesh, const Effort& effor
 template <typename Vertex>
 std::vector<std::uint32_t> in_the_open(const std::vector<Vertex>& vertices) {
   return std::vector<std::uint32_t>(vertices.size(), kInTheOpen);
+}
+
+/// The points of a place, and which of them its vertices use.
+struct PlacePoints {
+  Points points;
+  std::vector<std::uint32_t> scenery;
+  std::vector<std::vector<std::uint32_t>> props;
+};
+
+PlacePoints list_points(const PlaceMeshes& meshes, const Eigen::AlignedBox2d& ground,
+                        const Effort& effort, bool is_empty) {
+  std::size_t vertices = meshes.scenery.vertices.size();
+  for (const PlacedProp& prop : meshes.props) vertices += prop.mesh.vertices.size();
+  // The dense meshes of users share points.
+  constexpr float kShareM = 0.2F;
+  constexpr float kMaxShareM = 4;
+  float step_m = vertices > 5 * kMaxPoints ? kShareM : Points::kFineM;
+  while (true) {
+    PlacePoints listed{Points(step_m), {}, {}};
+    listed.scenery = is_empty ? in_the_open(meshes.scenery.vertices)
+                              : list_points(meshes.scenery, ground, effort.scenery, listed.points);
+    for (const PlacedProp& prop : meshes.props) {
+      listed.props.push_back(prop.is_backdrop ? in_the_open(prop.mesh.vertices)
+                                              : list_points(prop.mesh, effort, listed.points));
+    }
+    if (listed.points.all().size() <= kMaxPoints || step_m >= kMaxShareM) return listed;
+    step_m = std::max(kShareM, 1.5F * step_m);
+  }
 }
 
 void append(std::string& bytes, std::span<const float> values) {
@@ -173,7 +212,7 @@ std::vector<float> bake(const LightRays& light, const Points& points, const Prob
       if (point.is_leaf) {
         // Light goes through leaves and around their sides.
         constexpr float kThrough = 0.6F;
-        constexpr float kTwigM = 0.5F;  // the card's own twig, whose leaves are many
+        constexpr float kTwigM = 0.8F;  // the card's own twig, whose leaves are many
         const auto field = light.field(point.position, point.paths, kTwigM);
         if (field) received = field->received(kThrough * point.normal);
       } else {
@@ -281,15 +320,8 @@ ProbeGrid light_place(const world::Scenario& scenario, const Environment& enviro
   const bool is_empty = meshes.scenery.walls.count == 0 &&
                         std::none_of(meshes.props.begin(), meshes.props.end(),
                                      [](const PlacedProp& prop) { return !prop.is_backdrop; });
-  Points points;
-  const std::vector<std::uint32_t> scenery =
-      is_empty ? in_the_open(meshes.scenery.vertices)
-               : list_points(meshes.scenery, ground, effort.scenery, points);
-  std::vector<std::vector<std::uint32_t>> props;
-  for (const PlacedProp& prop : meshes.props) {
-    props.push_back(prop.is_backdrop ? in_the_open(prop.mesh.vertices)
-                                     : list_points(prop.mesh, effort, points));
-  }
+  const PlacePoints used = list_points(meshes, ground, effort, is_empty);
+  const Points& points = used.points;
   ProbeGrid probes(ground, !is_empty);
   const SkyLight sky(environment, day);
   const LightRays light(rays, sky, day, lamps);
@@ -302,11 +334,11 @@ ProbeGrid light_place(const world::Scenario& scenario, const Environment& enviro
   const auto exposure = static_cast<float>(day.exposure);
   set_probes(std::span(values).subspan(surface), probes);
   probes.expose(exposure);
-  set_light(values, exposure, probes.open(), scenery, meshes.scenery.indices,
+  set_light(values, exposure, probes.open(), used.scenery, meshes.scenery.indices,
             meshes.scenery.vertices);
   for (std::size_t i = 0; i < meshes.props.size(); ++i) {
     PropMesh& mesh = meshes.props[i].mesh;
-    set_light(values, exposure, probes.open(), props[i], mesh.indices, mesh.vertices);
+    set_light(values, exposure, probes.open(), used.props[i], mesh.indices, mesh.vertices);
   }
   return probes;
 }

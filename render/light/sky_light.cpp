@@ -113,7 +113,7 @@ Array3d relative_radiance(const Environment& environment, const Daylight& day,
     // The terms of (1 + 2 sin h) / 3 bring 3/7 and 4/7 of the light on level ground; 0.3 of the
     // whole is the soft light from above that Daylight::sun holds.
     constexpr double kEven = 3.0 / 7;
-    constexpr double kWithSine = 4.0 / 7 - 0.3;
+    constexpr double kWithSine = 4.0 / 7 - kSoftShare;
     return Array3d::Constant(kEven + 1.5 * kWithSine * direction.z());
   }
   // Town glow and fog come from everywhere alike.

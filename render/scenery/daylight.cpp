@@ -116,12 +116,12 @@ void light_up(const Environment& environment, Daylight& light) {
     light.dark = light.sun.maxCoeff() <= 0;
     return;
   }
-  // The zenith of a gray sky is three times as bright as its horizon (Moon and Spencer 1942): that
-  // excess is a soft light from above.
+  // The zenith of a gray sky is three times as bright as its horizon (Moon and Spencer 1942): a
+  // part of that excess is a soft light from above, in which people have shadows.
   light.soft = true;
   light.direction = Eigen::Vector3d::UnitZ();
-  light.sun = 0.3 * diffuse * gray;
-  light.sky = 0.7 * diffuse * gray;
+  light.sun = kSoftShare * diffuse * gray;
+  light.sky = (1 - kSoftShare) * diffuse * gray;
 }
 
 void color_the_air(const Environment& environment, Daylight& light) {

@@ -11,6 +11,9 @@
 
 namespace throng::render {
 
+/// Share of a closed cover's light that Daylight::sun holds.
+inline constexpr double kSoftShare = 0.1;
+
 /// The light of an environment; colors are linear RGB.
 struct Daylight {
   /// Unit vector toward the light that casts shadows: the sun (at least 3 degrees above the
