@@ -46,7 +46,7 @@ Vector3f about(const Vector3f& normal, const Vector3f& d) {
   return d.x() * u + d.y() * v + d.z() * normal;
 }
 
-/// The i-th of `count` directions in a spiral, which spreads them evenly: all points use the same,
+/// The turn of the i-th direction in a spiral, which spreads them evenly: all points use the same,
 /// so that their errors are alike and their light has no grain.
 float spiral_turn(int i) {
   constexpr double kGolden = 0.6180339887498949;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,12 +20,21 @@ namespace throng::render {
 
 /// Light in a point from everywhere: a surface with unit normal n receives even + toward^T n.
 struct LightField {
+  /// The numbers of a field: even, then the columns of toward.
+  static constexpr std::size_t kNumbers = 12;
   Eigen::Array3f even = Eigen::Array3f::Zero();
   Eigen::Matrix3f toward = Eigen::Matrix3f::Zero();  ///< a column per color
 
   /// Linear RGB of the light that a white surface throws back.
   Eigen::Array3f received(const Eigen::Vector3f& normal) const {
     return (even + (toward.transpose() * normal).array()).max(0.0F);
+  }
+
+  std::array<float, kNumbers> numbers() const {
+    std::array<float, kNumbers> all{};
+    std::copy_n(even.data(), 3, all.begin());
+    std::copy_n(toward.data(), 9, all.begin() + 3);
+    return all;
   }
 };
 
@@ -36,24 +47,24 @@ class LightRays {
             std::vector<Lamp> lamps);
 
   /// Light that a white surface at a point with this normal receives, from `paths` paths; no value
-  /// inside of a building.
+  /// inside a building.
   std::optional<Eigen::Array3f> received(const Eigen::Vector3f& point,
                                          const Eigen::Vector3f& normal, int paths) const;
 
-  /// The light in a point, past what is less than `skipped_m` away; no value inside of a building.
+  /// The light in a point, past what is less than `skipped_m` away; no value inside a building.
   std::optional<LightField> field(const Eigen::Vector3f& point, int paths,
                                   float skipped_m = 0) const;
 
-  /// The radiance that arrives against a direction; used by the reference renderer of bench/, too.
+  /// The radiance that arrives against a direction; used by scripts/sheets/light_sheet.cpp, too.
   /// `number` chooses the path.
   Eigen::Array3f radiance(const Eigen::Vector3f& from, const Eigen::Vector3f& direction,
                           int bounces, std::uint32_t number, bool& from_behind,
                           float skipped_m = 0) const;
+
+ private:
   /// The light that a surface receives straight from the sun and from lamps.
   Eigen::Array3f direct(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                         std::uint32_t number) const;
-
- private:
   struct Beam {
     Eigen::Vector3f direction;
     float strength = 0;  ///< on a surface that faces it, in units of lamp light

@@ -66,8 +66,7 @@ std::optional<std::vector<float>> read_values(const fs::path& file, std::size_t 
 class Turn {
  public:
   explicit Turn(const fs::path& folder)
-      : descriptor_(::open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC,
-                           0600)) {  // NOLINT(cppcoreguidelines-pro-type-vararg)
+      : descriptor_(::open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600)) {
     while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
     }
   }

@@ -163,9 +163,7 @@ PlacePoints list_points(const PlaceMeshes& meshes, const Eigen::AlignedBox2d& gr
 }
 
 void append(std::string& bytes, std::span<const float> values) {
-  bytes.append(reinterpret_cast<const char*>(
-                   values.data()),  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
-               values.size_bytes());
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
 
 std::string light_key(const RayScene& rays, const Environment& environment, const Daylight& day,
@@ -203,7 +201,7 @@ constexpr float kInside = -1;  // in place of a color: within a building
 std::vector<float> bake(const LightRays& light, const Points& points, const ProbeGrid& probes,
                         int air_paths) {
   const std::size_t surface = 3 * points.all().size();
-  std::vector<float> values(surface + ProbeGrid::kFloatsEach * probes.size(), kInside);
+  std::vector<float> values(surface + LightField::kNumbers * probes.size(), kInside);
   constexpr std::size_t kGrain = 32;
   parallel_ranges(points.all().size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -225,9 +223,7 @@ std::vector<float> bake(const LightRays& light, const Points& points, const Prob
     for (std::size_t i = begin; i < end; ++i) {
       const auto field = light.field(probes.position(i), air_paths);
       if (!field) continue;
-      float* at = &values[surface + ProbeGrid::kFloatsEach * i];
-      std::copy_n(field->even.data(), 3, at);
-      std::copy_n(field->toward.data(), 9, at + 3);
+      std::ranges::copy(field->numbers(), &values[surface + LightField::kNumbers * i]);
     }
   });
   return values;
@@ -236,7 +232,7 @@ std::vector<float> bake(const LightRays& light, const Points& points, const Prob
 void set_probes(std::span<const float> values, ProbeGrid& probes) {
   std::vector<std::optional<LightField>> fields(probes.size());
   for (std::size_t i = 0; i < probes.size(); ++i) {
-    const float* at = &values[ProbeGrid::kFloatsEach * i];
+    const float* at = &values[LightField::kNumbers * i];
     if (at[0] < 0) continue;
     fields[i] = LightField{Array3f(at[0], at[1], at[2]), Eigen::Matrix3f(at + 3)};
   }
@@ -328,7 +324,7 @@ ProbeGrid light_place(const world::Scenario& scenario, const Environment& enviro
   const std::size_t surface = 3 * points.all().size();
   const std::vector<float> values =
       load_or_make(folder, light_key(rays, environment, day, lamps, points, probes, effort.air),
-                   surface + ProbeGrid::kFloatsEach * probes.size(),
+                   surface + LightField::kNumbers * probes.size(),
                    [&] { return bake(light, points, probes, effort.air); });
 
   const auto exposure = static_cast<float>(day.exposure);

@@ -17,7 +17,6 @@ class ProbeGrid {
  public:
   /// Heights of the layers (m): of knees, and of heads.
   static constexpr std::array<float, 2> kHeightsM = {0.6F, 1.8F};
-  static constexpr int kFloatsEach = 12;
 
   ProbeGrid() = default;
   /// A grid over the ground, without light; `with_probes` false: only the one in the open.

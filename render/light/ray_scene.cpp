@@ -113,9 +113,7 @@ struct RayScene::Device {
     }
     if (cards != nullptr) {
       // Embree's interface takes no constant pointer; the filter only reads.
-      rtcSetGeometryUserData(geometry,
-                             const_cast<std::vector<Eigen::Vector2f>*>(
-                                 cards));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+      rtcSetGeometryUserData(geometry, const_cast<std::vector<Eigen::Vector2f>*>(cards));
       rtcSetGeometryIntersectFilterFunction(geometry, pass_between_leaves);
       rtcSetGeometryOccludedFilterFunction(geometry, pass_between_leaves);
     }
@@ -230,9 +228,7 @@ bool RayScene::is_free(const Vector3f& from, const Vector3f& direction, float di
 std::string RayScene::fingerprint() const {
   std::string bytes;
   const auto append = [&](const auto& values) {
-    bytes.append(reinterpret_cast<const char*>(
-                     values.data()),  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
-                 values.size() * sizeof(values[0]));
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
   };
   append(solid_);
   append(leaves_);

@@ -8,8 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "render/props/prop_mesh.h"
@@ -44,8 +43,8 @@ class RayScene {
   void add(const SceneryMesh& mesh, const Range& range, const RaySurface& surface);
   /// Adds the scenery's triangle that starts at this index.
   void add_triangle(const SceneryMesh& mesh, std::size_t first, const RaySurface& surface);
-  /// Adds a prop by its paint; cards of leaves let rays pass between the leaves. `glow` is the own
-  /// light of what is lit at night.
+  /// Adds a prop by its paint; cards of leaves let rays pass between the leaves. `lamp_color` is
+  /// that of one unit of lamp light, black by day.
   void add(const PropMesh& mesh, const Eigen::Array3f& lamp_color);
 
   /// Ends the adding. Throws EnvironmentError if there is no memory for it.

@@ -22,22 +22,24 @@ std::array<float, 3> mean_normal(const std::array<float, 3>& a, const std::array
   return {sum[0] / length, sum[1] / length, sum[2] / length};
 }
 
-}  // namespace
-
-SceneryVertex middle_vertex(const SceneryVertex& a, const SceneryVertex& b) {
-  SceneryVertex middle = a;
+/// `local` is the member with coordinates on the surface.
+template <typename Vertex, typename Local>
+Vertex mean_vertex(const Vertex& a, const Vertex& b, Local Vertex::*local) {
+  Vertex middle = a;
   middle.position = mean(a.position, b.position);
   middle.normal = mean_normal(a.normal, b.normal);
-  middle.local = mean(a.local, b.local);
+  middle.*local = mean(a.*local, b.*local);
   return middle;
 }
 
+}  // namespace
+
+SceneryVertex middle_vertex(const SceneryVertex& a, const SceneryVertex& b) {
+  return mean_vertex(a, b, &SceneryVertex::local);
+}
+
 PropVertex middle_vertex(const PropVertex& a, const PropVertex& b) {
-  PropVertex middle = a;
-  middle.position = mean(a.position, b.position);
-  middle.normal = mean_normal(a.normal, b.normal);
-  middle.card = mean(a.card, b.card);
-  return middle;
+  return mean_vertex(a, b, &PropVertex::card);
 }
 
 }  // namespace throng::render

@@ -52,7 +52,8 @@ Program make_scenery_program(std::string_view words, std::string_view surface,
 constexpr std::string_view kWideFilter = "#define WIDE_FILTER\n";
 constexpr std::string_view kTextured = "#define TEXTURED\n";
 constexpr std::string_view kNoPuddles = "#define NO_PUDDLES\n";
-/// At the edges of grass and earth there is bare soil, or grass grows in.
+/// Grass and earth follow no grid, so that a second, turned look-up hides how their texture
+/// repeats; at their edges there is bare soil, or grass grows in.
 constexpr std::string_view kGrass =
     "#define NO_PUDDLES\n#define EDGE_ALBEDO vec3(0.19, 0.155, 0.10)\n";
 constexpr std::string_view kDirt = "#define EDGE_ALBEDO vec3(0.115, 0.155, 0.052)\n";

@@ -102,9 +102,7 @@ std::array<std::uint32_t, 4> packed(const std::array<skinning::Rgb, skinning::kT
 
 /// Pairs of half floats: the even light, then the vector of each color.
 std::array<std::uint32_t, 6> packed(const LightField& field) {
-  std::array<float, 12> values{};
-  std::copy_n(field.even.data(), 3, values.begin());
-  std::copy_n(field.toward.data(), 9, values.begin() + 3);
+  const std::array<float, LightField::kNumbers> values = field.numbers();
   std::array<std::uint32_t, 6> words{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::uint32_t half = Eigen::half_impl::float_to_half_rtne(values.at(i)).x;
@@ -216,7 +214,8 @@ void PeoplePass::load_textures(const skinning::Population& population) {
 }
 
 std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance> people,
-                                                  const std::vector<PersonDraw>& draws) {
+                                                  const std::vector<PersonDraw>& draws,
+                                                  bool is_lit) {
   std::vector<Instance> instances;
   instances.reserve(draws.size());
   std::vector<Batch> batches;
@@ -234,16 +233,17 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
       batches.push_back({level, draw.shading, static_cast<std::uint32_t>(instances.size()), 0});
     }
     ++batches.back().count;
-    instances.push_back({{person.position.x(), person.position.y(), person.position.z()},
-                         first_palette + person.pose.a,
-                         first_palette + person.pose.b,
-                         std::bit_cast<std::uint32_t>(person.pose.blend),
-                         id_of_agent(person.agent),
-                         packed(person.appearance.tint),
-                         draw.shift,
-                         {std::bit_cast<std::uint32_t>(std::cos(person.yaw_rad)),
-                          std::bit_cast<std::uint32_t>(std::sin(person.yaw_rad))},
-                         packed(air_.at(person.position + kHips))});
+    instances.push_back(
+        {{person.position.x(), person.position.y(), person.position.z()},
+         first_palette + person.pose.a,
+         first_palette + person.pose.b,
+         std::bit_cast<std::uint32_t>(person.pose.blend),
+         id_of_agent(person.agent),
+         packed(person.appearance.tint),
+         draw.shift,
+         {std::bit_cast<std::uint32_t>(std::cos(person.yaw_rad)),
+          std::bit_cast<std::uint32_t>(std::sin(person.yaw_rad))},
+         is_lit ? packed(air_.at(person.position + kHips)) : std::array<std::uint32_t, 6>{}});
   }
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
                     instances.data(), GL_STREAM_DRAW);
@@ -327,7 +327,7 @@ void PeoplePass::draw_surfaces(std::span<const PersonInstance> people,
                                std::span<const PersonInstance> next) {
   if (draws.empty()) return;
   sort(people, draws);
-  const std::vector<Batch> batches = upload(people, draws);
+  const std::vector<Batch> batches = upload(people, draws, false);
   upload_next(people, draws, next);
   bind(surface_array_);
   glEnable(GL_CULL_FACE);
@@ -342,7 +342,8 @@ void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
                       std::vector<PersonDraw> draws) {
   if (draws.empty()) return;
   sort(people, draws);
-  const std::vector<Batch> batches = upload(people, draws);
+  const bool is_lit = purpose == Purpose::image || purpose == Purpose::truth;
+  const std::vector<Batch> batches = upload(people, draws, is_lit);
   bind(array_);
   if (purpose == Purpose::shadow) {
     // Faces toward the sun are counter-clockwise in the map, which is not upside down like the

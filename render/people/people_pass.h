@@ -72,8 +72,9 @@ class PeoplePass {
   void upload_next(std::span<const PersonInstance> people, const std::vector<PersonDraw>& draws,
                    std::span<const PersonInstance> next);
   void load_textures(const skinning::Population& population);
+  /// `is_lit`: with the light around each person.
   std::vector<Batch> upload(std::span<const PersonInstance> people,
-                            const std::vector<PersonDraw>& draws);
+                            const std::vector<PersonDraw>& draws, bool is_lit);
   static void draw_batch(const Batch& batch, Range PeopleLevel::*range);
   static void draw_batches(const std::vector<Batch>& batches, Range PeopleLevel::*range);
   struct ImagePrograms {

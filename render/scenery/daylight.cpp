@@ -140,8 +140,7 @@ void color_the_air(const Environment& environment, Daylight& light) {
   }
   const double setting =
       geometry::smoothstep(-5, 0.5, degrees) * (1 - geometry::smoothstep(3, 14, degrees));
-  constexpr double kClearAfternoon =
-      0.265;  // some of the exposed sky's light, the sun at 45 degrees
+  constexpr double kClearAfternoon = 0.265;  // exposed light of the sky that has these colors
   // A setting sun's sky keeps its color below the film's white.
   const double level = std::min(received / kClearAfternoon, 1.3 - 0.4 * setting);
   const Array3d day(0.62, 0.70, 0.80);

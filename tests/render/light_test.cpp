@@ -281,7 +281,7 @@ TEST(LitScenario, PeopleAreDarkInAPassageAndWarmBesideASunlitWall) {
   EXPECT_GT(beside.x() / beside.z(), 1.2F * in_the_open.x() / in_the_open.z());
 }
 
-TEST(LitScenario, LabelsAreThoseOfTrianglesUncut) {
+TEST(LitScenario, LabelsAreThoseOfCoarserTriangles) {
   // Cutting moves no surface: ids are the same and depths equal but for rounding.
   const world::Scenario scenario = open_ground({block(4, 10, -5, 5, 8)});
   Stage coarse(scenario, {}, {.quality = Quality::draft});
