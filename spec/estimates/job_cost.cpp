@@ -30,7 +30,8 @@ namespace {
 constexpr double kRunS = 0.4;      ///< simulation and figures: processes, place
 constexpr double kShardS = 2.9;    ///< driver, character library, place
 constexpr double kDatasetS = 0.2;  ///< of a job: collecting, hashing
-constexpr double kLightS = 2.5;    ///< the light of a place and an hour in `standard`
+/// The light of a place and an hour by quality: means of three places (November 2026).
+constexpr std::array<double, 3> kLightS = {1.6, 2.4, 8.3};
 constexpr double kLoadedPersonS = 0.0001;
 constexpr double kSimulatedSecondS = 0.027;
 constexpr double kPersonSecondS = 28e-6;          ///< of a person who is present, simulated
@@ -180,9 +181,7 @@ class BakedLight {
     constexpr double kMaxProbes = 12'000;
     bytes +=
         kLightBytes + kLightProbeBytes * std::min(kProbesPerM2 * expected.ground_m2, kMaxProbes);
-    cpu_s += kLightS * (job.quality == render::Quality::draft  ? 0.25
-                        : job.quality == render::Quality::high ? 3
-                                                               : 1);
+    cpu_s += kLightS[static_cast<std::size_t>(job.quality)];
   }
 
   double cpu_s = 0;
