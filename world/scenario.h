@@ -16,6 +16,7 @@
 #include "base/geometry/rectangle.h"
 #include "base/geometry/region.h"
 #include "world/alarm.h"
+#include "world/building.h"
 #include "world/disasters.h"
 #include "world/ground.h"
 #include "world/props.h"
@@ -60,25 +61,6 @@ struct Exit {
   /// The width that people can pass, on which all figures are based.
   double width_m() const { return free_m.value_or(length_m()); }
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
-};
-
-/// Appearance of a building's walls. by_id: plaster or brick, depending on the building's index.
-/// The values are those of shaders/wall.frag.glsl, which has further ones for render::WallLook.
-enum class Facade : std::uint8_t {
-  by_id = 0,
-  plaster = 1,
-  brick = 2,
-  glass = 3,
-  hedge = 8,
-  screen = 9  ///< a wall of lights that shows moving images
-};
-
-/// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.
-struct Building {
-  std::string id;
-  std::vector<Eigen::Vector2d> footprint;  ///< m
-  double height_m = 10;
-  Facade facade = Facade::by_id;
 };
 
 /// A mesh file of the user (y up), placed in the world with its origin at `position`.

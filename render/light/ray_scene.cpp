@@ -35,10 +35,11 @@ struct Sprites {
   }
   bool covers(const Eigen::Vector2f& card) const {
     const float layer = std::floor(card.x() / 2);
+    if (layer >= kLeafSprites) return false;  // letters are flat on their signs
     const auto texel = [](float share) {
       return std::clamp(static_cast<int>(share * kTexels), 0, kTexels - 1);
     };
-    const auto sprite = std::clamp(static_cast<int>(layer), 0, kLeafSprites - 1);
+    const int sprite = std::max(static_cast<int>(layer), 0);
     const int at = texel(card.y()) * kTexels + texel(card.x() - 2 * layer);
     return cover[static_cast<std::size_t>(sprite)][static_cast<std::size_t>(at)].cover >= 128;
   }

@@ -7,6 +7,7 @@
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
 #include "render/props/leaf_sprites.h"
+#include "render/props/letter_sprites.h"
 
 namespace throng::render {
 
@@ -36,14 +37,15 @@ Texture make_leaf_sprites() {
   Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
   const GLuint name = texture.name();
   const int levels = std::bit_width(static_cast<unsigned>(kLeafTexels));
-  glTextureStorage3D(name, levels, GL_RG8, kLeafTexels, kLeafTexels, kLeafSprites);
+  glTextureStorage3D(name, levels, GL_RG8, kLeafTexels, kLeafTexels, kLeafSprites + kLetterSheets);
   glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  for (int sprite = 0; sprite < kLeafSprites; ++sprite) {
-    const auto shown = draw_leaf_sprite(static_cast<LeafSprite>(sprite));
+  for (int sprite = 0; sprite < kLeafSprites + kLetterSheets; ++sprite) {
+    const auto shown = sprite < kLeafSprites ? draw_leaf_sprite(static_cast<LeafSprite>(sprite))
+                                             : draw_letter_sheet(sprite - kLeafSprites);
     for (int level = 0; level < levels; ++level) {
       const int size = kLeafTexels >> level;
       glTextureSubImage3D(name, level, 0, 0, sprite, size, size, 1, GL_RG, GL_UNSIGNED_BYTE,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "render/buildings/facade_style.h"
 #include "render/gl/shaders.h"
 #include "render/scenery/ground_texture.h"
 #include "render/scenery/land_pattern.h"
@@ -65,11 +66,13 @@ bool is_baked(std::string_view material) {
   return material != "kerb" && material != "paint" && material != kPlain;
 }
 
-/// Mean colors of facades and roofs, in the words of a ground.
+/// The paint of facades and roofs, in the words of a ground; windows darken walls.
 constexpr std::string_view kWallAlbedo =
-    "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.41, 0.36, 0.30); }\n";
+    "layout(location = 6) in vec4 paint;\n"
+    "vec3 ground_albedo(vec2 p, vec2 width) { return 0.8 * paint.rgb; }\n";
 constexpr std::string_view kRoofAlbedo =
-    "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.31, 0.29, 0.27); }\n";
+    "layout(location = 6) in vec4 paint;\n"
+    "vec3 ground_albedo(vec2 p, vec2 width) { return paint.rgb; }\n";
 
 Program make_corners_program(std::string_view words, std::string_view material) {
   return make_program({words, shader_view, shader_light, shader_noise, embedded::shader_ground_tile,
@@ -112,7 +115,8 @@ SceneryPass::SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scena
       words + std::string(environment.sun_elevation_rad < kLowSunRad ? kWideFilter : "");
   if (quality.textured) {
     const std::string wide = words + std::string(kWideFilter);
-    walls_ = make_scenery_program(wide, embedded::shader_screen, embedded::shader_wall_frag);
+    walls_ = make_scenery_program(wide, embedded::shader_screen,
+                                  facade_words() + std::string(embedded::shader_wall_frag));
     roofs_ = make_scenery_program(wide, embedded::shader_roof_frag);
   } else {
     walls_ = make_corners_program(words, kWallAlbedo);
@@ -124,7 +128,8 @@ SceneryPass::SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scena
                      {2, 4, GL_FLOAT, false, offsetof(SceneryVertex, local)},
                      {3, 3, GL_FLOAT, false, offsetof(SceneryVertex, light)},
                      {4, 1, GL_UNSIGNED_INT, false, offsetof(SceneryVertex, id)},
-                     {5, 1, GL_FLOAT, false, offsetof(SceneryVertex, facade)}});
+                     {5, 1, GL_FLOAT, false, offsetof(SceneryVertex, facade)},
+                     {6, 4, GL_UNSIGNED_BYTE, true, offsetof(SceneryVertex, paint)}});
   glVertexArrayElementBuffer(array_.name(), indices_.name());
   learn(material_, choose_shader(material_, scenario), ground_words, quality);
   learn(std::string(kPlain), embedded::shader_ground_surroundings, ground_words, quality);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <utility>
 #include <cmath>
 #include <numbers>
 
@@ -176,7 +177,11 @@ void keep_share(Level& level, double share) {
 }  // namespace
 
 std::vector<std::vector<LeafTexel>> draw_leaf_sprite(LeafSprite sprite) {
-  std::vector<Level> levels = {draw_finest(sprite)};
+  return sprite_levels(draw_finest(sprite));
+}
+
+std::vector<std::vector<LeafTexel>> sprite_levels(std::vector<LeafTexel> finest) {
+  std::vector<Level> levels = {std::move(finest)};
   const double share = covered_share(levels.front(), 128);
   std::vector<Level> shown = levels;
   for (int size = kLeafTexels; size > 1; size /= 2) {

@@ -29,4 +29,7 @@ struct LeafTexel {
 /// (Castaño 2010).
 std::vector<std::vector<LeafTexel>> draw_leaf_sprite(LeafSprite sprite);
 
+/// The levels below a finest one, which comes first.
+std::vector<std::vector<LeafTexel>> sprite_levels(std::vector<LeafTexel> finest);
+
 }  // namespace throng::render

@@ -12,6 +12,7 @@
 
 #include "base/compute/random.h"
 #include "render/props/leaf_sprites.h"
+#include "render/props/letter_sprites.h"
 #include "render/props/prop_mesh.h"
 #include "world/props.h"
 
@@ -66,6 +67,18 @@ class PropBuilder {
     // The whole part of the first coordinate says which sprite it is.
     for (std::size_t i = mesh_.vertices.size() - corners.size(); i < mesh_.vertices.size(); ++i) {
       mesh_.vertices[i].card[0] += 2 * static_cast<float>(sprite);
+    }
+  }
+
+  /// Adds a card with a word of kShopWords, of the aspect kLetterAspect.
+  void word(const std::array<Eigen::Vector3d, 4>& corners, const Eigen::Vector3d& normal,
+            const Eigen::Vector3d& paint, std::size_t number) {
+    quad(corners, {normal, normal, normal, normal}, paint, Finish::leaves);
+    const auto layer = static_cast<float>(kLeafSprites + number / kWordsPerSheet);
+    const auto row = static_cast<float>(number % kWordsPerSheet);
+    for (std::size_t i = mesh_.vertices.size() - corners.size(); i < mesh_.vertices.size(); ++i) {
+      std::array<float, 2>& card = mesh_.vertices[i].card;
+      card = {card[0] + 2 * layer, (row + card[1]) / kWordsPerSheet};
     }
   }
 

@@ -1,8 +1,12 @@
 #include "render/scenery/place_meshes.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <utility>
 
+#include "render/buildings/building_mesh.h"
+#include "render/buildings/facade_details.h"
+#include "render/buildings/roof_details.h"
 #include "render/frame/frame.h"
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
@@ -23,6 +27,27 @@ Eigen::AlignedBox2d mesh_outline(const PropMesh& mesh) {
     outline.extend(Eigen::Vector2d(vertex.position[0], vertex.position[1]));
   }
   return outline;
+}
+
+/// Adds what is on the buildings, on their fronts only near where people are.
+void add_building_details(const world::Scenario& scenario, bool semantic,
+                          std::vector<PlacedProp>& props) {
+  constexpr double kFrontsWithinM = 70;
+  for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
+    const BuildingModel model = building_model(scenario.buildings[i], i);
+    const auto id_of = [&](world::SemanticClass value) {
+      return semantic ? id_with_class(kIdBuilding + i, value) : kIdBuilding + i;
+    };
+    const auto add = [&](PropMesh mesh) {
+      if (!mesh.indices.empty()) props.push_back({.mesh = std::move(mesh)});
+    };
+    add(roof_details(model, id_of(world::SemanticClass::roof)));
+    const auto& footprint = model.building.footprint;
+    const bool is_near = std::any_of(footprint.begin(), footprint.end(), [&](const auto& corner) {
+      return (scenario.inside.bounds.nearest_point(corner, 0) - corner).norm() < kFrontsWithinM;
+    });
+    if (is_near) add(facade_details(model, scenario, id_of(world::SemanticClass::building)));
+  }
 }
 
 std::vector<PlacedProp> place_props(const world::Scenario& scenario, bool semantic) {
@@ -48,6 +73,7 @@ std::vector<PlacedProp> place_props(const world::Scenario& scenario, bool semant
     }
     if (!pieces.empty()) ++id;
   }
+  add_building_details(scenario, semantic, props);
   // Walls of hedges throw the shadows of their leaves, and nobody sees those of the land beyond.
   for (PropMesh& mesh : hedge_leaves(scenario, semantic)) {
     props.push_back({.mesh = std::move(mesh), .casts = false});

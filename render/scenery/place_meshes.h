@@ -6,7 +6,7 @@
 
 #include "render/props/prop_mesh.h"
 #include "render/scenery/ground_layers.h"
-#include "render/scenery/scenery_mesh.h"
+#include "render/buildings/scenery_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {

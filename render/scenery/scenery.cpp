@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "base/compute/random.h"
-#include "base/geometry/polygon.h"
-#include "base/geometry/triangulate.h"
+#include "render/buildings/building_mesh.h"
+#include "render/buildings/exit_doors.h"
+#include "render/buildings/roof_details.h"
 #include "render/frame/frame.h"
 #include "render/scenery/ground_tone.h"
 #include "render/scenery/hedges.h"
-#include "render/scenery/scenery_details.h"
 
 namespace throng::render {
 
@@ -63,65 +63,19 @@ void add_ground(const world::Scenario& scenario, SceneryMesh& mesh) {
   mesh.surroundings = add_cells(false);
 }
 
-void add_walls(const world::Building& building, std::uint32_t id, SceneryMesh& mesh) {
-  const double height = building.height_m;
-  for (std::size_t i = 0; i < building.footprint.size(); ++i) {
-    const Eigen::Vector2d& from = building.footprint[i];
-    const Eigen::Vector2d& to = building.footprint[(i + 1) % building.footprint.size()];
-    const double length = (to - from).norm();
-    const Eigen::Vector2d along = (to - from) / length;
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const double z : {0.0, height}) {
-      for (const double s : {0.0, length}) {
-        const Eigen::Vector2d p = s == 0.0 ? from : to;
-        mesh.vertices.push_back({three(p.x(), p.y(), z),
-                                 three(along.y(), -along.x(), 0),
-                                 {static_cast<float>(s), static_cast<float>(z),
-                                  static_cast<float>(length), static_cast<float>(height)},
-                                 id,
-                                 static_cast<float>(building.facade),
-                                 {}});
-      }
-    }
-    mesh.indices.insert(mesh.indices.end(),
-                        {first, first + 1, first + 3, first, first + 3, first + 2});
-  }
-}
-
-void add_roof(const world::Building& building, std::uint32_t id, SceneryMesh& mesh) {
-  Eigen::AlignedBox2d bounds;
-  for (const Eigen::Vector2d& corner : building.footprint) bounds.extend(corner);
-  const Eigen::Vector2d size = bounds.sizes();
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Eigen::Vector2d& corner : building.footprint) {
-    const Eigen::Vector2d local = corner - bounds.min();
-    mesh.vertices.push_back({three(corner.x(), corner.y(), building.height_m),
-                             {0, 0, 1},
-                             {static_cast<float>(local.x()), static_cast<float>(local.y()),
-                              static_cast<float>(size.x()), static_cast<float>(size.y())},
-                             id,
-                             static_cast<float>(building.facade),
-                             {}});
-  }
-  for (const auto& triangle : geometry::triangulate(building.footprint)) {
-    for (const std::uint32_t corner : triangle) mesh.indices.push_back(first + corner);
-  }
-}
-
 }  // namespace
 
 SceneryMesh scenery_mesh(const world::Scenario& scenario) {
   SceneryMesh mesh;
   const auto indices = [&] { return static_cast<std::uint32_t>(mesh.indices.size()); };
+  std::vector<BuildingModel> models;
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
-    add_walls(without_leaves(scenario.buildings[i]), kIdBuilding + i, mesh);
+    models.push_back(building_model(without_leaves(scenario.buildings[i]), i));
   }
+  for (const BuildingModel& model : models) add_walls(model, mesh);
   add_exit_doors(scenario, mesh);
-  add_roof_plant(scenario, mesh);
   mesh.walls = {0, indices()};
-  for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
-    add_roof(without_leaves(scenario.buildings[i]), kIdBuilding + i, mesh);
-  }
+  for (const BuildingModel& model : models) add_roof(model, mesh);
   mesh.roofs = {mesh.walls.count, indices() - mesh.walls.count};
   add_ground(scenario, mesh);
   return mesh;
@@ -134,8 +88,7 @@ double tallest_m(const world::Scenario& scenario) {
   if (!scenario.meshes.empty()) tallest = kMeshM;
   for (const world::Prop& prop : scenario.props) tallest = std::max(tallest, kTreeM * prop.scale);
   for (const world::Building& building : scenario.buildings) {
-    const double plant_m = has_roof_plant(building) ? kRoofPlantM : 0;
-    tallest = std::max(tallest, building.height_m + plant_m);
+    tallest = std::max(tallest, building.height_m + kMaxAboveRoofM);
   }
   return tallest;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "render/scenery/scenery_details.h"
+#include "render/buildings/building_mesh.h"
 #include "render/scenery/surface_classes.h"
 
 namespace throng::render {
@@ -36,26 +36,24 @@ bool has_look(const SceneryVertex& vertex, WallLook look) {
   return vertex.facade == static_cast<float>(look);
 }
 
-/// Whether a building with this facade and height is a wall without stories, as
-/// shaders/wall.frag.glsl shows it.
-bool is_low_wall(float facade, double height_m) {
-  return height_m < kMinStoryM && facade != static_cast<float>(world::Facade::glass);
-}
-
 SemanticClass class_of_wall(const SceneryVertex& vertex) {
+  constexpr std::size_t kHeight = 3;  // of SceneryVertex::local
   if (vertex.facade == static_cast<float>(world::Facade::hedge)) return SemanticClass::hedge;
   if (has_look(vertex, WallLook::open_door) || has_look(vertex, WallLook::closed_door)) {
     return SemanticClass::door;
   }
-  if (has_look(vertex, WallLook::plant)) return SemanticClass::roof;
-  constexpr std::size_t kHeight = 3;  // of SceneryVertex::local
-  return is_low_wall(vertex.facade, vertex.local[kHeight]) ? SemanticClass::wall
-                                                           : SemanticClass::building;
+  const bool is_upper = has_look(vertex, WallLook::gable) ||
+                        has_look(vertex, WallLook::brick_gable) ||
+                        has_look(vertex, WallLook::glazing);
+  const bool has_stories = vertex.local[kHeight] >= kMinStoryM ||
+                           vertex.facade == static_cast<float>(world::Facade::glass);
+  return is_upper || has_stories ? SemanticClass::building : SemanticClass::wall;
 }
 
 SemanticClass class_of_roof(const SceneryVertex& vertex) {
-  if (vertex.facade == static_cast<float>(world::Facade::hedge)) return SemanticClass::hedge;
-  return is_low_wall(vertex.facade, vertex.position[2]) ? SemanticClass::wall : SemanticClass::roof;
+  if (vertex.facade == static_cast<float>(RoofLook::hedge)) return SemanticClass::hedge;
+  if (vertex.facade == static_cast<float>(RoofLook::wall_top)) return SemanticClass::wall;
+  return SemanticClass::roof;
 }
 
 /// Classifies the vertices of a range, which no other range uses.

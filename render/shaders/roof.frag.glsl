@@ -1,36 +1,79 @@
-// A flat roof: gravel on felt in strips, behind a parapet.
+// A roof: gravel, felt or plants if flat; tiles, slates or standing seams on slopes.
 in vec3 world;
 in vec3 ambient;
-in vec4 local;  // from a corner of the roof's bounds, then their size; m
+in vec4 local;  // along the eaves and up the slope; m
 flat in vec3 normal;
 flat in uint id;
-flat in float facade_kind;  // of the walls below; 8: a hedge, whose top this is
+flat in float facade_kind;  // world::Covering or render::RoofLook
+flat in vec4 paint;
 
 layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
 
+const int kTiles = 2;
+const int kSlate = 3;
+const int kMetal = 4;
+const int kGrass = 5;
+const int kFelt = 6;
+const int kCoping = 7;
+const int kHedge = 8;
+
+// Rows of tiles or slates, each with its own tone, lapped over the row below.
+float lapped(vec2 p, vec2 size, vec2 width, float variety, float round_m) {
+  float row = floor(p.y / size.y);
+  vec2 at = vec2(p.x / size.x + 0.5 * mod(row, 2.0), p.y / size.y);
+  vec2 at_width = width / size;
+  float fade = clamp(1.6 - 1.6 * max(at_width.x, at_width.y), 0.0, 1.0);
+  float tone = (hash(ivec2(floor(at))) - 0.5) * variety * fade;
+  float shade = stripes(at.y + 0.5 * at_width.y, 0.16, at_width.y);
+  float joint = stripes(at.x, 0.07, at_width.x);
+  float bulge = round_m * (abs(fract(at.x) - 0.5) - 0.25) * fade;
+  return 1.0 + tone - 0.34 * shade - 0.2 * joint - bulge;
+}
+
 void main() {
+  int kind = int(facade_kind + 0.5);
   vec2 p = local.xy;
   vec2 width = fwidth(p);
-  float rim = min(min(p.x, local.z - p.x), min(p.y, local.w - p.y));
-  float rim_width = max(width.x, width.y);
-  float parapet = 1.0 - band(rim, 0.4, 1e4, rim_width);
-  float gutter = band(rim, 0.4, 0.75, rim_width);
-  float tone = hash(ivec2(int(id & 0xFFFFu), 17));
-  float gravel = (noise(p * 11.0) - 0.5) * clamp(1.5 - 8.0 * rim_width, 0.0, 1.0);
+  float coarse = max(width.x, width.y);
   float stain = noise(p * 0.35) + 0.5 * noise(p * 1.4 + 9.0) - 0.75;
-  float seam = stripes(p.x / 2.0, 0.02, width.x / 2.0);
-  vec3 albedo = mix(vec3(0.27, 0.26, 0.25), vec3(0.36, 0.33, 0.29), tone);
-  albedo *= (1.0 + 0.2 * gravel + 0.25 * stain) * (1.0 - 0.3 * seam) * (1.0 - 0.3 * gutter);
-  albedo = mix(albedo, vec3(0.46, 0.44, 0.40), parapet);
-  if (facade_kind > 7.5) albedo = vec3(0.020, 0.036, 0.011) * (0.6 + 0.8 * noise(p * 3.1));
+  float fine = noise(p * 11.0) - 0.5;
+  vec3 albedo = paint.rgb;
+  if (kind == kTiles || kind == kSlate) {
+    bool tiles = kind == kTiles;
+    vec2 size = tiles ? vec2(0.21, 0.30) : vec2(0.22, 0.17);
+    albedo *= lapped(p, size, width, tiles ? 0.34 : 0.42, tiles ? 0.7 : 0.0);
+    // Moss and soot from the foot up, patches of newer ones.
+    float moss = smoothstep(0.45, 0.8, noise(p * 0.9 + 31.0) + 0.3 * noise(p * 3.0) - 0.12 * p.y);
+    albedo = mix(albedo, vec3(0.075, 0.080, 0.042), 0.45 * moss);
+    albedo *= 1.0 + 0.26 * stain;
+  } else if (kind == kMetal) {
+    float seam = stripes(p.x / 0.53, 0.06, width.x / 0.53);
+    float sheet = hash(ivec2(floor(vec2(p.x / 0.53, p.y / 4.0)))) - 0.5;
+    albedo *= (1.0 - 0.4 * seam) * (1.0 + 0.12 * sheet + 0.16 * stain);
+  } else if (kind == kGrass) {
+    albedo *= 0.62 + 0.9 * noise(p * 2.2) + 0.35 * fine;
+    albedo = mix(albedo, vec3(0.19, 0.095, 0.06), 0.5 * smoothstep(0.5, 0.75, noise(p * 0.6 + 5.0)));
+  } else if (kind == kFelt) {
+    float strip = hash(ivec2(int(floor(p.x)), int(floor(p.y / 7.0)))) - 0.5;
+    float seam = max(stripes(p.x, 0.05, width.x), stripes(p.y / 7.0, 0.008, width.y / 7.0));
+    float pond = smoothstep(0.62, 0.7, noise(p * 0.28 + 3.0));
+    albedo *= (1.0 + 0.14 * strip + 0.3 * stain) * (1.0 - 0.25 * seam) * (1.0 - 0.22 * pond);
+    albedo *= 1.0 + 0.15 * fine * clamp(1.5 - 8.0 * coarse, 0.0, 1.0);
+  } else if (kind == kHedge) {
+    albedo = vec3(0.020, 0.036, 0.011) * (0.6 + 0.8 * noise(p * 3.1));
+  } else {
+    float gravel = fine * clamp(1.5 - 8.0 * coarse, 0.0, 1.0);
+    albedo *= 1.0 + (kind == kCoping ? 0.1 : 0.34) * gravel + 0.3 * stain;
+  }
 #ifdef WET
   albedo *= 0.6;
 #endif
-  float sun = light.sun_direction.z * sunlit(world, 0.1);
+  float facing = max(dot(normal, light.sun_direction.xyz), 0.0);
+  float sun = facing * sunlit(world + 0.06 * normal, 0.1);
   vec3 received = light.sun.rgb * sun + ambient;
 #ifdef FIRES
-  received += fire_light(world, vec3(0.0, 0.0, 1.0));
+  received += fire_light(world, normal);
 #endif
   vec3 radiance = albedo * received;
   color = vec4(film(through_air(radiance, world)), 1.0);

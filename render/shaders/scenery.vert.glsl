@@ -5,6 +5,7 @@ layout(location = 2) in vec4 local_in;
 layout(location = 3) in vec3 light_in;
 layout(location = 4) in uint id_in;
 layout(location = 5) in float facade_in;
+layout(location = 6) in vec4 paint_in;
 
 out vec3 world;
 out vec3 ambient;  // light of sky, lamps and bounces on a white surface
@@ -12,6 +13,7 @@ out vec4 local;
 flat out vec3 normal;
 flat out uint id;
 flat out float facade_kind;
+flat out vec4 paint;
 
 void main() {
   world = position;
@@ -20,5 +22,6 @@ void main() {
   normal = normal_in;
   id = id_in;
   facade_kind = facade_in;
+  paint = paint_in;
   gl_Position = project(position);
 }

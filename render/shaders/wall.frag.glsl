@@ -1,10 +1,12 @@
-// A facade: plaster or brick, floors, a grid of windows with reveals, a plinth and a cornice.
+// A facade: stories and bays by its style (render/buildings/facade_style.h), windows that stand back in
+// their reveals, a plinth.
 in vec3 world;
 in vec3 ambient;
 in vec4 local;  // along the wall, up, wall length, wall height; m
 flat in vec3 normal;
 flat in uint id;
 flat in float facade_kind;  // number of the world::Facade, or of a WallLook
+flat in vec4 paint;         // albedo, then the front's number and whether it has shops
 
 layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
@@ -15,9 +17,10 @@ struct Surface {
   vec3 glow;     // own light, after sunset
   float mirror;  // share of the light that the glass mirrors at a right angle
   float tilt;    // by which a pane leans
+  float sun;     // share of the direct sun that reaches it past what is before it on the wall
 };
 
-Surface dull() { return Surface(vec3(0.0), vec3(0.0), vec3(0.0), 0.1, 0.0); }
+Surface dull() { return Surface(vec3(0.0), vec3(0.0), vec3(0.0), 0.1, 0.0, 1.0); }
 
 #ifdef LAMPS
 const float kWindow = 3.0e-4;  // light of a window, in units of lamp light
@@ -38,8 +41,7 @@ vec3 brick_color(vec2 p, vec2 width) {
   float mortar = max(stripes(brick.x, 0.05, brick_width.x), stripes(brick.y, 0.15, brick_width.y));
   float fade = clamp(1.5 - 1.5 * max(brick_width.x, brick_width.y), 0.0, 1.0);
   float tone = (hash(ivec2(floor(brick))) - 0.5) * fade;
-  vec3 albedo = vec3(0.30, 0.155, 0.10) * (1.0 + 0.5 * tone);
-  return mix(albedo, vec3(0.42, 0.40, 0.36), mortar);
+  return mix(paint.rgb * (1.0 + 0.5 * tone), vec3(0.40, 0.38, 0.34), 0.85 * mortar);
 }
 
 // Goods on the shelves behind a shop's window, by shop; empty above the highest shelf.
@@ -58,45 +60,82 @@ vec3 shop_display(ivec2 cell, vec2 p, vec2 width) {
   return mix(shelves, vec3(0.13, 0.12, 0.10), board) * step(p.y, 1.75);
 }
 
-// Window panes with a light frame; `cell` names the window, `p` is relative to its middle bottom.
-void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width) {
-  const float kFrame = 0.09;
-  const float kReveal = 0.16;
-  float opening = band(p.x, -half_size.x, half_size.x, width.x) *
-                  band(p.y, 0.0, 2.0 * half_size.y, width.y);
-  float pane_x = band(p.x, -half_size.x + kFrame, -0.03, width.x) +
-                 band(p.x, 0.03, half_size.x - kFrame, width.x);
-  float pane = pane_x * band(p.y, kFrame, 2.0 * half_size.y - kFrame, width.y);
+const float kRevealM = 0.16;  // by which panes stand back
+
+// The way along the wall and up that a ray makes, in a direction away from it, per meter of depth.
+vec2 slope_in(vec3 outward) {
+  vec3 along = vec3(-normal.y, normal.x, 0.0);
+  return vec2(-dot(outward, along), -outward.z) / max(dot(outward, normal), 0.2);
+}
+
+struct Window {
+  vec2 half_size;  // m; the height is twice the second
+  vec2 panes;      // across and up
+  float frame;     // albedo of its frames
+  float surround;  // m, of stone around it
+  float arch;      // m, by which its head rises in the middle
+  bool is_shop;
+};
+
+// How much of a footprint lies in a window's opening.
+float opening_at(Window w, vec2 p, vec2 width) {
+  float head = 2.0 * w.half_size.y - w.arch * pow(abs(p.x) / w.half_size.x, 2.0);
+  return band(p.x, -w.half_size.x, w.half_size.x, width.x) * band(p.y, 0.0, head, width.y);
+}
+
+// A window; `cell` names it, `p` is relative to its middle bottom.
+void add_window(inout Surface s, Window w, ivec2 cell, vec2 p, vec2 width) {
+  float tall = 2.0 * w.half_size.y;
+  float opening = opening_at(w, p, width);
+  Window around = w;
+  around.half_size += vec2(w.surround, 0.5 * w.surround);
+  float stone = w.surround > 0.0 ? opening_at(around, p, width) : 0.0;
+  s.albedo = mix(s.albedo, vec3(0.52, 0.50, 0.46), stone);
+  // Panes are seen, and lit, through the opening before them.
+  vec2 back = p + kRevealM * slope_in(normalize(light.eye.xyz - world));
+  float seen = opening * opening_at(w, back, width);
+  float lit = opening_at(w, back - kRevealM * slope_in(light.sun_direction.xyz), width);
+  vec2 panes = vec2(w.panes.x * (0.5 + 0.5 * back.x / w.half_size.x), w.panes.y * back.y / tall);
+  vec2 bar = vec2(0.055, 0.055) * w.panes / vec2(2.0 * w.half_size.x, tall);
+  vec2 bars = vec2(stripes(panes.x + 0.5 * bar.x, bar.x, width.x * w.panes.x / (2.0 * w.half_size.x)),
+                   stripes(panes.y + 0.5 * bar.y, bar.y, width.y * w.panes.y / tall));
+  float pane = seen * (1.0 - max(bars.x, bars.y));
   float pick = hash(cell);
-  float curtain = step(0.55, pick) * band(p.y, 2.0 * half_size.y * (1.1 - pick), 9.0, width.y);
+  float curtain = step(0.55, pick) * band(back.y, tall * (1.1 - pick), 9.0, width.y);
   vec3 inside = mix(vec3(0.025, 0.03, 0.035), vec3(0.30, 0.28, 0.25) * pick, 0.8 * curtain);
   // Some panes show the room: a light ceiling, and what stands on the floor.
-  float up = clamp(p.y / (2.0 * half_size.y), 0.0, 1.0);
+  float up = clamp(back.y / tall, 0.0, 1.0);
   float room = step(hash(cell + 307), 0.4) * (1.0 - curtain);
-  inside += room * vec3(0.10, 0.085, 0.065) * (smoothstep(0.55, 1.0, up) + 0.5 * step(p.x, 0.0) * (1.0 - up));
-  bool is_shop = half_size.x > 0.8;
-  if (is_shop) inside = shop_display(cell, p, width);
-  // The lintel shades the top of the opening.
-  float shade = 1.0 - 0.6 * band(p.y, 2.0 * half_size.y - kReveal, 9.0, width.y);
-  s.albedo = mix(s.albedo, vec3(0.50, 0.49, 0.46) * shade, opening);
-  s.albedo = mix(s.albedo, inside * shade, pane);
+  inside += room * vec3(0.10, 0.085, 0.065) * (smoothstep(0.55, 1.0, up) + 0.5 * step(back.x, 0.0) * (1.0 - up));
+  if (w.is_shop) {
+    // Goods stand further back, and hide each other as one passes.
+    vec2 goods = p + 0.7 * slope_in(normalize(light.eye.xyz - world));
+    inside = shop_display(cell, vec2(goods.x, max(goods.y, 0.02)), width);
+  }
+  vec3 frame = vec3(w.frame) * (w.frame > 0.3 ? vec3(1.0, 0.98, 0.94) : vec3(1.0));
+  s.albedo = mix(s.albedo, 0.75 * s.albedo, opening);
+  s.albedo = mix(s.albedo, frame, seen);
+  s.albedo = mix(s.albedo, inside, pane);
+  s.sun = mix(s.sun, lit, seen);
 #ifdef LAMPS
   // Somebody is at home behind every third pane, behind more of them than not in warm light.
   float home = hash(cell + 211);
   vec3 warm = mix(vec3(1.0, 0.72, 0.42), vec3(0.85, 0.92, 1.0), step(0.8, fract(home * 17.0)));
-  float lit = step(home, is_shop ? 0.6 : 0.36) * (0.35 + 1.6 * min(home, 0.36)) * (1.0 - 0.6 * curtain);
+  float burns = step(home, w.is_shop ? 0.6 : 0.36) * (0.35 + 1.6 * min(home, 0.36)) * (1.0 - 0.6 * curtain);
   // Ceilings are bright, and furniture is before the lower parts.
-  lit *= mix(0.35, 1.35, up);
-  vec3 lit_room = is_shop ? 0.3 + 6.0 * inside : vec3(1.0);
-  s.glow += warm * lit_room * (pane * shade * lit);
+  burns *= mix(0.35, 1.35, up);
+  vec3 lit_room = w.is_shop ? 0.3 + 6.0 * inside : vec3(1.0);
+  s.glow += warm * lit_room * (pane * burns);
 #endif
-  s.shine += pane * shade * vec3(1.0);  // double glazing
+  s.shine += vec3(pane * mix(0.5, 1.0, lit));  // double glazing
   s.tilt = 0.08 * (hash(cell + 101) - 0.5);
-  float sill = band(p.x, -half_size.x - 0.1, half_size.x + 0.1, width.x) *
-               band(p.y, -0.12, 0.0, width.y);
-  float below = band(p.x, -half_size.x, half_size.x, width.x) * band(p.y, -0.25, -0.12, width.y);
+  float sill = band(p.x, -w.half_size.x - 0.1, w.half_size.x + 0.1, width.x) * band(p.y, -0.1, 0.0, width.y);
   s.albedo = mix(s.albedo, vec3(0.55, 0.53, 0.49), sill);
-  s.albedo *= 1.0 - 0.25 * below;
+  // Water that runs off the sill stains the wall below, most at its ends.
+  float below = band(p.x, -w.half_size.x - 0.1, w.half_size.x + 0.1, width.x) * smoothstep(-1.3, -0.1, p.y) *
+                step(p.y, -0.1);
+  float at_ends = smoothstep(0.35, 0.0, abs(abs(p.x) - w.half_size.x));
+  s.albedo *= 1.0 - below * (0.12 + 0.22 * at_ends) * (0.4 + 0.9 * noise(vec2(p.x * 6.0, float(cell.x))));
 }
 
 // A curtain wall: panes 1.4 m wide between slim mullions, a spandrel at every floor.
@@ -130,25 +169,6 @@ Surface glass_facade(vec2 p, vec2 size, ivec2 key) {
   s.glow = vec3(0.95, 0.92, 0.8) * (lit * (0.25 + 0.75 * up + 0.7 * lamps));
 #endif
   return s;
-}
-
-// A shop's sign above its windows: one shop for every two bays, some without.
-void add_sign(inout Surface s, ivec2 key, int bay_number, vec2 p, vec2 bay, vec2 width) {
-  ivec2 shop = key + ivec2(bay_number / 2, 71);
-  float which = hash(shop);
-  if (which > 0.72) return;
-  const vec3 kSigns[6] = vec3[](vec3(0.30, 0.035, 0.03), vec3(0.025, 0.07, 0.16), vec3(0.03, 0.10, 0.06),
-                                vec3(0.03, 0.03, 0.03), vec3(0.42, 0.27, 0.03), vec3(0.34, 0.32, 0.28));
-  float from = 2.0 * bay.x * float(bay_number / 2);
-  vec2 at = vec2(p.x - from, p.y);
-  float board = band(at.x, 0.15, 2.0 * bay.x - 0.15, width.x) *
-                band(at.y, 0.83 * bay.y, 0.83 * bay.y + 0.36, width.y);
-  float letters = band(at.x, 0.5, 1.0 + bay.x * (0.4 + hash(shop + 5)), width.x) *
-                  band(at.y, 0.83 * bay.y + 0.1, 0.83 * bay.y + 0.26, width.y) *
-                  step(0.35, noise(vec2(at.x * 7.0, float(shop.x))));
-  vec3 paint = kSigns[int(which / 0.72 * 5.999)];
-  s.albedo = mix(s.albedo, paint, board);
-  s.albedo = mix(s.albedo, paint.r > 0.3 ? vec3(0.05) : vec3(0.55, 0.53, 0.46), board * letters);
 }
 
 // The houses across the street as panes mirror them: fronts 20 m away with windows, each of its own
@@ -230,15 +250,14 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
   return s;
 }
 
-// Roof installations: gray metal with slots, lighter on top.
-Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
+// Rows of panes between dark bars, above a saw-tooth roof.
+Surface glazing(vec2 p, vec2 size) {
   vec2 width = fwidth(p);
-  float tone = 0.8 + 0.4 * hash(key + ivec2(int(size.x * 53.0), int(size.y * 31.0)));
-  float slots = normal.z > 0.5 ? 0.0 : stripes(p.y / 0.12, 0.4, width.y / 0.12);
-  float rim = 1.0 - band(p.x, 0.06, size.x - 0.06, width.x) * band(p.y, 0.06, size.y - 0.06, width.y);
+  vec2 bars = stripes_xy(p / vec2(1.0, 0.8), 0.08, width / vec2(1.0, 0.8));
+  float bar = max(bars.x, bars.y);
   Surface s = dull();
-  s.albedo = vec3(0.33, 0.335, 0.34) * tone * (1.0 - 0.45 * slots * (1.0 - rim)) *
-             (0.85 + 0.3 * noise(p * 2.3));
+  s.albedo = mix(vec3(0.05, 0.06, 0.065), vec3(0.10), bar);
+  s.shine = vec3(1.0 - bar);
   return s;
 }
 
@@ -280,48 +299,89 @@ Surface screen(vec2 p, vec2 size) {
   return s;
 }
 
+// Plaster or brick with its stains; `p` in m.
+vec3 wall_albedo(vec2 p, vec2 width, bool brick) {
+  float fine = clamp(1.5 - 8.0 * max(width.x, width.y), 0.0, 1.0);
+  float stain = noise(p * vec2(0.7, 0.25)) - 0.5;
+  // Water runs down below ledges and leaves streaks; the street splashes the foot.
+  float streak = noise(vec2(p.x * 5.0, p.y * 0.35 + 17.0)) * noise(vec2(p.x * 1.1 + 5.0, 3.0));
+  float splash = exp(-1.6 * p.y) * (0.5 + 0.5 * noise(p * 3.0));
+  float rough = (noise(p * 16.0) - 0.5) * fine;
+  vec3 albedo = brick ? brick_color(p, width) : paint.rgb;
+  return albedo * (1.0 + 0.2 * stain + 0.1 * rough) * (1.0 - 0.45 * streak) * (1.0 - 0.4 * splash);
+}
+
+// Paint that somebody sprayed on the foot of a wall: a few letters of thick lines in two colors.
+void add_graffiti(inout Surface s, ivec2 key, vec2 p, vec2 size, vec2 width) {
+  float where = hash(key + 91);
+  vec2 at = p - vec2(0.8 + where * max(0.0, size.x - 4.5), 0.5);
+  vec2 in_box = at / vec2(2.6, 1.1);
+  if (hash(key + 93) > 0.35 || min(in_box.x, in_box.y) < 0.0 || max(in_box.x, in_box.y) > 1.0) return;
+  float letter = floor(in_box.x * 5.0);
+  vec2 q = vec2(fract(in_box.x * 5.0), in_box.y) - 0.5;
+  float bend = 3.0 * hash(key + ivec2(int(letter), 7));
+  float line = abs(length(q * vec2(0.9, 0.75) + 0.12 * sin(bend + 5.0 * q.yx)) - 0.30);
+  float fill = smoothstep(0.14, 0.10, line + 0.3 * max(width.x, width.y));
+  float rim = smoothstep(0.20, 0.15, line) - fill;
+  vec3 tint = 0.45 * vec3(hash(key + 95), hash(key + 96), hash(key + 97));
+  s.albedo = mix(s.albedo, tint, 0.85 * fill);
+  s.albedo = mix(s.albedo, vec3(0.03), 0.8 * rim);
+}
+
 Surface facade(vec2 p, vec2 size, uint building) {
-  const float kLowestStory = 2.6;  // kMinStoryM of render/scenery/lamps.cpp
+  const float kLowestStory = 2.6;  // kMinStoryM of render/buildings/scenery_mesh.h
   vec2 width = fwidth(p);
-  ivec2 key = ivec2(int(building), 3);
+  int more = int(paint.a * 255.0 + 0.5);
+  ivec2 key = ivec2(int(building) + 977 * (more & 127), 3);
   int kind = int(facade_kind + 0.5);
   if (kind == 8) return hedge(p, size);
   if (kind == 9) return screen(p, size);
   if (kind == 4 || kind == 5) return exit_door(p, size, kind == 4);
-  if (kind == 6) return roof_plant(p, size, key);
-  bool brick = kind == 0 ? hash(key) < 0.4 : kind == 2;
+  if (kind == 14) return glazing(p, size);
+  vec4 trims = kFacadeTrims[kind];
+  bool brick = trims.z > 0.5 || kind == 7;
+  if (kind == 6 || kind == 7) {
+    Surface plain = dull();
+    plain.albedo = wall_albedo(p + vec2(0.0, 3.0), width, brick);
+    return plain;
+  }
   if (size.y < kLowestStory && kind != 3) return low_wall(p, size, key, brick);
   if (kind == 3) return glass_facade(p, size, key);
-  float floors = max(1.0, round(size.y / 3.3));
-  float bays = max(1.0, round(size.x / 2.8));
-  vec2 bay = vec2(size.x / bays, size.y / floors);
-  ivec2 cell = ivec2(min(floor(p / bay), vec2(bays, floors) - 1.0));
+  vec4 sizes = kFacadeSizes[kind];
+  vec4 windows = kFacadeWindows[kind];
+  vec2 count = max(vec2(1.0), floor(size / sizes.xy + 0.5));
+  vec2 bay = size / count;
+  ivec2 cell = ivec2(min(floor(p / bay), count - 1.0));
   vec2 within = p - (vec2(cell) + vec2(0.5, 0.0)) * bay;
   bool ground_floor = cell.y == 0;
-  float fine = clamp(1.5 - 8.0 * max(width.x, width.y), 0.0, 1.0);
-  float stain = noise(p * vec2(0.7, 0.25)) - 0.5;
-  // Water runs down below sills and ledges and leaves streaks; the street splashes the foot.
-  float streak = noise(vec2(p.x * 5.0, p.y * 0.35 + 17.0)) * noise(vec2(p.x * 1.1 + 5.0, 3.0));
-  float splash = exp(-1.6 * p.y) * (0.5 + 0.5 * noise(p * 3.0));
-  float rough = (noise(p * 16.0) - 0.5) * fine;
+  bool shop = ground_floor && more >= 128 && count.y > 1.5;
 
   Surface s = dull();
-  s.albedo = brick && !ground_floor ? brick_color(p, width) : render_color(hash(key + 31));
-  s.albedo *= (1.0 + 0.2 * stain + 0.1 * rough) * (1.0 - 0.45 * streak) * (1.0 - 0.4 * splash);
-  vec2 half_size = ground_floor ? vec2(0.36 * bay.x, 0.37 * bay.y) : vec2(0.6, 0.25 * bay.y);
-  float sill_height = ground_floor ? 0.35 : 0.29 * bay.y;
-  add_window(s, cell + 13 * key, within - vec2(0.0, sill_height), half_size, width);
-  if (ground_floor) add_sign(s, key, cell.x, p, bay, width);
-  if (ground_floor && bays >= 3.0 && cell.x == int(0.5 * bays)) add_door(s, key, within, width);
-  // A string course above the ground floor, a plinth and a cornice.
-  float course = band(p.y, bay.y - 0.22, bay.y, width.y);
-  float cornice = band(p.y, size.y - 0.45, size.y, width.y);
-  float under_cornice = band(p.y, size.y - 0.75, size.y - 0.45, width.y);
-  float plinth = band(p.y, -1.0, 0.3, width.y);
-  s.albedo = mix(s.albedo, vec3(0.57, 0.54, 0.49), max(course, cornice));
-  s.albedo = mix(s.albedo, vec3(0.24, 0.235, 0.23), plinth);
-  s.albedo *= 1.0 - 0.35 * under_cornice;
-  s.shine *= (1.0 - plinth) * (1.0 - max(course, cornice));
+  s.albedo = wall_albedo(p, width, brick && !shop);
+  if (shop) s.albedo = mix(s.albedo, vec3(0.42, 0.40, 0.37), brick ? 0.0 : 0.35);
+  // Joints between slabs, each cast a little differently.
+  vec2 joints = stripes_xy(p / bay + 0.004, 0.012, width / bay);
+  float tone = hash(cell + 29 * key) - 0.5;
+  s.albedo *= 1.0 + trims.w * (0.10 * tone - 0.55 * max(joints.x, joints.y));
+  // Stucco of the ground floor in courses.
+  float grooves = stripes(p.y / 0.42, 0.09, width.y / 0.42);
+  s.albedo *= 1.0 - (kind == 10 && ground_floor ? 0.3 * grooves : 0.0);
+
+  Window w;
+  w.is_shop = shop;
+  w.half_size = shop ? vec2(0.43 * bay.x, 0.5 * min(0.62 * bay.y, 2.3))
+                     : vec2(min(sizes.z, 0.45 * bay.x), 0.5 * sizes.w * bay.y);
+  w.panes = shop ? vec2(2.0, 1.0) : windows.yz;
+  w.frame = shop ? 0.07 + 0.4 * step(0.7, hash(key + 211)) : windows.w;
+  w.surround = shop ? 0.0 : trims.x;
+  w.arch = kind == 13 ? 0.28 : kind == 10 && hash(key + 61) < 0.4 ? 0.16 : 0.0;
+  float sill = shop ? 0.35 : windows.x * bay.y;
+  add_window(s, w, cell + 13 * key, within - vec2(0.0, sill), width);
+  float plinth = band(p.y, -1.0, 0.35, width.y);
+  s.albedo = mix(s.albedo, 0.45 * s.albedo + vec3(0.07), plinth);
+  s.shine *= 1.0 - plinth;
+  if (ground_floor && count.x >= 3.0 && cell.x == int(0.5 * count.x)) add_door(s, key, within, width);
+  if (ground_floor && !shop) add_graffiti(s, key, p, size, width);
 #ifdef LAMPS
   // The lamps of wall_lamps() in render/scenery/lamps.cpp.
   float apart = size.x / max(1.0, floor(size.x / 12.0));
@@ -336,7 +396,7 @@ void main() {
   Surface s = facade(local.xy, local.zw, id & 0xFFFFu);
   float facing = max(dot(normal, light.sun_direction.xyz), 0.0);
   // Walls stand off their own shadow by more than a texel of the map.
-  float sun = facing * sunlit(world + 0.12 * normal, 0.02);
+  float sun = facing * s.sun * sunlit(world + 0.12 * normal, 0.02);
   // A shadow falls through glass onto what is behind it, and is not seen on it.
   sun = mix(sun, 0.5 * facing, min(s.shine.g, 1.0));
   vec3 received = light.sun.rgb * sun + ambient;

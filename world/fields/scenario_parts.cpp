@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
 
+#include "base/compute/srgb.h"
 #include "base/files/confine.h"
 #include "base/geometry/angle.h"
 #include "base/geometry/polygon.h"
@@ -26,11 +29,106 @@ namespace {
 constexpr double kMaxHeightM = 1'000;
 constexpr double kMinMeshScale = 1e-4;
 constexpr double kMaxMeshScale = 1e4;
-constexpr std::array<std::pair<const char*, Facade>, 5> kFacades = {{{"plaster", Facade::plaster},
-                                                                     {"brick", Facade::brick},
-                                                                     {"glass", Facade::glass},
-                                                                     {"hedge", Facade::hedge},
-                                                                     {"screen", Facade::screen}}};
+/// A word of files and its value.
+template <typename Value>
+using Word = std::pair<const char*, Value>;
+
+constexpr std::array<Word<Facade>, 9> kFacades = {{{"plaster", Facade::plaster},
+                                                   {"brick", Facade::brick},
+                                                   {"glass", Facade::glass},
+                                                   {"hedge", Facade::hedge},
+                                                   {"screen", Facade::screen},
+                                                   {"historic", Facade::historic},
+                                                   {"modern", Facade::modern},
+                                                   {"concrete", Facade::concrete},
+                                                   {"warehouse", Facade::warehouse}}};
+
+constexpr std::array<Word<RoofKind>, 9> kRoofKinds = {{{"flat", RoofKind::flat},
+                                                       {"gabled", RoofKind::gabled},
+                                                       {"hipped", RoofKind::hipped},
+                                                       {"half_hipped", RoofKind::half_hipped},
+                                                       {"mansard", RoofKind::mansard},
+                                                       {"shed", RoofKind::shed},
+                                                       {"sawtooth", RoofKind::sawtooth},
+                                                       {"pyramid", RoofKind::pyramid},
+                                                       {"dome", RoofKind::dome}}};
+
+constexpr std::array<Word<Covering>, 6> kCoverings = {{{"gravel", Covering::gravel},
+                                                       {"tiles", Covering::tiles},
+                                                       {"slate", Covering::slate},
+                                                       {"metal", Covering::metal},
+                                                       {"grass", Covering::grass},
+                                                       {"felt", Covering::felt}}};
+
+/// Adds a field whose values are words of a table; default: by the object's number.
+template <typename Object, typename Words, typename Access>
+void add_choice(FieldTable<Object>& table, const char* name, const Words& words, Access access,
+                std::string help) {
+  std::vector<std::string> names;
+  names.reserve(words.size());
+  for (const auto& [word, value] : words) names.emplace_back(word);
+  table.add(
+      name, "", "", fields::one_of_words(names),
+      [&words, access](const Object& object) {
+        for (const auto& [word, choice] : words) {
+          if (access(object) == choice) return json(word);
+        }
+        return json();
+      },
+      [&words, access](Object& object, const json& value, const FieldLocation& /*place*/) {
+        for (const auto& [word, choice] : words) {
+          if (value == word) access(object) = choice;
+        }
+      },
+      std::move(help));
+}
+
+Paint paint_from_hex(const std::string& text) {
+  Paint paint;
+  for (int i = 0; i < 3; ++i) {
+    const auto byte = std::stoi(text.substr(static_cast<std::size_t>(1 + 2 * i), 2), nullptr, 16);
+    paint[i] = linear_from_srgb(static_cast<std::uint8_t>(byte));
+  }
+  return paint;
+}
+
+std::string hex_from_paint(const Paint& paint) {
+  return fmt::format("#{:02x}{:02x}{:02x}", srgb_from_linear(paint[0]), srgb_from_linear(paint[1]),
+                     srgb_from_linear(paint[2]));
+}
+
+/// Adds a color such as "#a05030", in sRGB.
+template <typename Object, typename Access>
+void add_paint(FieldTable<Object>& table, Access access, std::string help) {
+  table.add(
+      "color", "", "",
+      fields::raw({{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}},
+                  "a color such as \"#a05030\""),
+      [access](const Object& object) {
+        return access(object) ? json(hex_from_paint(*access(object))) : json();
+      },
+      [access](Object& object, const json& value, const FieldLocation& /*place*/) {
+        access(object) = paint_from_hex(value.get_ref<const std::string&>());
+      },
+      std::move(help));
+}
+
+/// Adds an angle in degrees that may be missing.
+template <typename Object, typename Access>
+void add_angle(FieldTable<Object>& table, const char* name, fields::Values values, Access access,
+               std::string help) {
+  table.add(
+      name, "", "°", std::move(values),
+      [access](const Object& object) {
+        constexpr double kDecimals = 100;
+        if (!access(object)) return json();
+        return json(std::round(kDecimals * *access(object) / kDegree) / kDecimals);
+      },
+      [access](Object& object, const json& value, const FieldLocation& /*place*/) {
+        access(object) = radians_from_degrees(value.get<double>());
+      },
+      std::move(help));
+}
 
 /// The heading of a part in degrees.
 template <typename Part>
@@ -55,11 +153,33 @@ void set_footprint(Building& building, const json& value, const FieldLocation& p
 
 }  // namespace
 
+namespace {
+
+const FieldTable<Roof>& roof_fields() {
+  static const FieldTable<Roof> fields = [] {
+    FieldTable<Roof> table;
+    add_choice(table, "kind", kRoofKinds, at(&Roof::kind),
+               "Shape; default: one that suits the building, by its number.");
+    table.add("height_m", "", "m", fields::numbers(0, kMaxHeightM), at(&Roof::height_m),
+              "Height between eaves and ridge, which is part of the building's; default: by the "
+              "pitch.");
+    add_angle(table, "pitch_deg", fields::numbers(5, 75), at(&Roof::pitch_rad),
+              "Slope of the roof; default: a usual one of its kind.");
+    add_choice(table, "material", kCoverings, at(&Roof::covering),
+               "Covering; default: a usual one of the kind.");
+    add_paint(table, at(&Roof::paint), "Color of the covering; default: a usual one.");
+    add_angle(table, "falls_deg", headings_deg(), at(&Roof::falls_rad),
+              "Direction in which the slope of a shed, or one of a gabled roof, falls, from +x; "
+              "default: across the longest wall.");
+    return table;
+  }();
+  return fields;
+}
+
+}  // namespace
+
 const FieldTable<Building>& building_fields() {
   static const FieldTable<Building> fields = [] {
-    std::vector<std::string> words;
-    words.reserve(kFacades.size());
-    for (const auto& [word, facade] : kFacades) words.emplace_back(word);
     FieldTable<Building> table;
     add_id(table);
     table
@@ -69,16 +189,13 @@ const FieldTable<Building>& building_fields() {
         .required();
     table
         .add("height_m", "", "m", fields::numbers(0.1, kMaxHeightM), at(&Building::height_m),
-             "Height; below 2.6 m it is a wall without windows.")
+             "Height with the roof; below 2.6 m it is a wall without windows.")
         .required();
-    table.add_read(
-        "facade", fields::one_of_words(words),
-        [](Building& building, const json& value, const FieldLocation& /*place*/) {
-          for (const auto& [word, facade] : kFacades) {
-            if (value == word) building.facade = facade;
-          }
-        },
-        "Facade; default: plaster or brick, by the building's number.");
+    add_choice(table, "facade", kFacades, at(&Building::facade),
+               "Facade; default: by the building's number, so that neighbors differ.");
+    add_paint(table, at(&Building::paint), "Color of the walls; default: a usual one.");
+    table.group("roof", "", "The roof.").without_default();
+    table.add_all("roof", roof_fields(), at(&Building::roof));
     return table;
   }();
   return fields;

@@ -77,7 +77,8 @@ std::vector<Area> BuildingSolids::opened(const BuildingPiece& piece, const Area&
       std::vector<Area> rest = without(whole, passage.ground);
       bool is_opened = false;
       for (const Area& above : from_m > kHeadM ? without(whole, rest) : std::vector<Area>()) {
-        is_opened |= add_hanging({piece.name, above, from_m, piece.to_m, false, piece.part});
+        is_opened |=
+            add_hanging({piece.name, above, from_m, piece.to_m, false, piece.part, piece.looks});
       }
       if (!is_opened) rest = {whole};
       left.insert(left.end(), rest.begin(), rest.end());
@@ -97,7 +98,8 @@ void BuildingSolids::stand(const BuildingPiece& piece, const Area& area) {
     building_bounds_.push_back(geometry::bounding_box(corners));
     if (!piece.part) place_.obstacles.push_back(corners);
     place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1), std::move(corners),
-                                piece.to_m, world::Facade::by_id});
+                                piece.to_m, piece.looks.facade, piece.looks.paint,
+                                piece.looks.roof});
   }
 }
 

@@ -23,7 +23,13 @@ struct Outline {
 };
 
 BuildingPiece building_piece(const OsmArea& area, const Tags& tags) {
-  BuildingPiece piece{area.name, area.area, building_base_m(tags), 0, true, false};
+  BuildingPiece piece{area.name,
+                      area.area,
+                      building_base_m(tags),
+                      0,
+                      true,
+                      false,
+                      building_looks(tags, roof_height_m(tags))};
   piece.to_m = std::max(building_height_m(tags), piece.from_m + 0.5);
   piece.stands = piece.from_m <= kHeadM && tag_value(tags, "building") != "roof";
   return piece;
@@ -33,6 +39,7 @@ BuildingPiece building_piece(const OsmArea& area, const Tags& tags) {
 Tags inherited(const Tags& part, const Tags& building) {
   Tags tags = part;
   inherit_height(building, tags);
+  inherit_looks(building, tags);
   const std::string& kind = tag_value(building, "building");
   tags["building"] = tag_value(part, "building:part") == "roof" ? "roof" : kind;
   return tags;
@@ -85,6 +92,9 @@ void note_unread(const OsmArea& area, const BuildingPiece& piece, const std::str
                      "reaches from {:g} to {:g} m",
                      tag, piece.from_m, piece.to_m)});
   }
+  for (const std::string& tag : undrawn_looks(area.tags)) {
+    skipped.push_back({file, 0, area.name, fmt::format("{} is not drawn as it says", tag)});
+  }
   const auto stated = stated_height_m(area.tags);
   if (stated && piece.from_m >= *stated) {
     skipped.push_back({file, 0, area.name,
@@ -127,6 +137,9 @@ void add_parts(const Outline& outline, const BuildingPiece& whole, const std::st
   for (const OsmArea* part : outline.parts) {
     pieces.push_back(building_piece(*part, inherited(part->tags, outline.area->tags)));
     pieces.back().part = whole.stands;
+    // What is said of no roof is a flat one, but of a whole building nothing.
+    world::Roof& roof = pieces.back().looks.roof;
+    if (roof.kind == world::RoofKind::by_id) roof.kind = world::RoofKind::flat;
     note_unread(*part, pieces.back(), file, result.skipped);
   }
   add_body(outline, whole, file, pieces, result.skipped);

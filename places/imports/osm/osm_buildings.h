@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "places/imports/osm/osm_file.h"
+#include "places/imports/osm/osm_looks.h"
 #include "places/imports/parts/areas.h"
 #include "places/imports/parts/imported_scenario.h"
 
@@ -19,6 +20,7 @@ struct BuildingPiece {
   double to_m = 0;
   bool stands = true;  ///< on the ground or on such pieces; else people can walk below
   bool part = false;   ///< part of a building whose outline blocks people
+  BuildingLooks looks = {};
 };
 
 /// All buildings of a map.

@@ -103,13 +103,6 @@ std::optional<double> size_in(const Tags& tags, const std::string& size, Reader 
   return std::nullopt;
 }
 
-/// The height of a roof (m), or nothing.
-std::optional<double> roof_height_m(const Tags& tags) {
-  if (const auto height = size_in(tags, "roof:height", length_in)) return height;
-  if (const auto levels = size_in(tags, "roof:levels", count_in)) return *levels * kLevelM;
-  return std::nullopt;
-}
-
 /// "KEY=VALUE" of the tags that have these keys and that cannot be read.
 std::vector<std::string> unread_values(const Tags& tags, const std::vector<std::string>& keys,
                                        Reader read) {
@@ -159,6 +152,12 @@ std::optional<double> stated_height_m(const Tags& tags) {
     const double height = *levels * kLevelM + roof_height_m(tags).value_or(0);
     if (height > 0) return std::clamp(height, kMinBuildingM, kTallestM);
   }
+  return std::nullopt;
+}
+
+std::optional<double> roof_height_m(const Tags& tags) {
+  if (const auto height = size_in(tags, "roof:height", length_in)) return height;
+  if (const auto levels = size_in(tags, "roof:levels", count_in)) return *levels * kLevelM;
   return std::nullopt;
 }
 

@@ -40,6 +40,9 @@ std::vector<std::string> unread_building_sizes(const Tags& tags);
 std::vector<std::string> unread_lengths(const Tags& tags, const std::vector<std::string>& keys);
 std::vector<std::string> unread_counts(const Tags& tags, const std::vector<std::string>& keys);
 
+/// The height of a building's roof (m): `roof:height`, else 3 m for each of `roof:levels`.
+std::optional<double> roof_height_m(const Tags& tags);
+
 /// Gives a part that states no height those tags of its building that do.
 void inherit_height(const Tags& building, Tags& part);
 

@@ -12,6 +12,7 @@
 #include "crowd/description/menge_files/write.h"
 #include "crowd/description/options.h"
 #include "places/imports/parts/mesh_text.h"
+#include "world/fields/scenario_parts.h"
 
 namespace throng::imports {
 
@@ -61,11 +62,10 @@ json ground_json(const ImportedScenario& scenario) {
 
 json buildings_json(const ImportedScenario& scenario) {
   json buildings = json::array();
-  for (const world::Building& building : scenario.buildings) {
-    buildings.push_back({{"id", building.id},
-                         {"footprint", corners_json(building.footprint)},
-                         {"height_m", rounded(building.height_m)}});
-    if (building.facade == world::Facade::glass) buildings.back()["facade"] = "glass";
+  for (world::Building building : scenario.buildings) {
+    building.height_m = rounded(building.height_m);
+    buildings.push_back(world::building_fields().print(building));
+    buildings.back()["footprint"] = corners_json(building.footprint);
   }
   return buildings;
 }

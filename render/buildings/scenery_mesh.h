@@ -14,12 +14,15 @@ inline constexpr double kMinStoryM = 2.6;
 struct SceneryVertex {
   std::array<float, 3> position{};  ///< m
   std::array<float, 3> normal{};
-  /// Walls: coordinates along the wall and up, length and height of the wall (m). Roofs:
-  /// coordinates from the corner of the roof's bounds, and their size (m). Ground:
+  /// Walls: coordinates along the front and up, length and height of the front (m). Roofs:
+  /// coordinates along the eaves and up the slope (m). Ground:
   /// ground_tone_at(), then in wide areas 1 m and the distance to their outline (m), else 0.
   std::array<float, 4> local{};
   std::uint32_t id = 0;  ///< value in the id buffer
-  float facade = 0;      ///< walls: value of world::Facade or WallLook
+  float facade = 0;      ///< walls: world::Facade or WallLook; roofs: world::Covering or RoofLook
+  /// Walls and roofs: linear albedo; of a front then a number that distinguishes it, of which the
+  /// highest bit says that it has shops.
+  std::array<std::uint8_t, 4> paint{};
   /// Light from sky, lamps and bounces on a white surface here (render/light/place_light.h).
   std::array<float, 3> light{};
 };
