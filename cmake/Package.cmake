@@ -14,7 +14,7 @@ set(CPACK_DEBIAN_PROGRAM_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
-  "libegl1, libegl-mesa0, libgl1-mesa-dri, libopengl0, fonts-dejavu-core")
+  "libegl1, libegl-mesa0, libgl1-mesa-dri, libopengl0, fonts-dejavu-core, fonts-bebas-neue")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "synthetic crowd datasets
  Simulates crowds and quadcopters, renders the drones' cameras without a
  GPU, and writes images with exact ground truth and evacuation figures.")

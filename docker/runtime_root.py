@@ -25,7 +25,7 @@ OPENED = [
     "libEGL_mesa.so.0",
 ]
 FILES = ["/usr/share/glvnd/egl_vendor.d/50_mesa.json", "/usr/bin/curl", "/etc/ssl/certs/ca-certificates.crt"]
-FOLDERS = ["/usr/share/fonts/truetype/dejavu", "/etc/fonts", "/usr/share/fontconfig"]
+FOLDERS = ["/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/opentype/bebas-neue", "/etc/fonts", "/usr/share/fontconfig"]
 
 
 def output(*command):

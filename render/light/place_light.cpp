@@ -50,6 +50,7 @@ struct Point {
   Vector3f normal;
   int paths = 0;
   bool is_leaf = false;
+  float share_m = 0;  ///< within which points of about its normal are one
 };
 
 constexpr std::uint32_t kInTheOpen = ~0U;
@@ -68,13 +69,15 @@ class Points {
     const auto round = [](float value, float step) {
       return static_cast<int>(std::lround(value / step));
     };
+    const float step_m = std::max(step_m_, point.share_m);
+    const float normal_step = point.share_m > 0 ? 0.3F : normal_step_;
     // Layers of ground lie closer than the third number tells apart.
-    const std::array<int, 7> key = {round(point.position.x(), step_m_),
-                                    round(point.position.y(), step_m_),
-                                    round(point.position.z(), std::max(step_m_, 0.04F)),
-                                    round(point.normal.x(), normal_step_),
-                                    round(point.normal.y(), normal_step_),
-                                    round(point.normal.z(), normal_step_),
+    const std::array<int, 7> key = {round(point.position.x(), step_m),
+                                    round(point.position.y(), step_m),
+                                    round(point.position.z(), std::max(step_m, 0.04F)),
+                                    round(point.normal.x(), normal_step),
+                                    round(point.normal.y(), normal_step),
+                                    round(point.normal.z(), normal_step),
                                     point.paths};
     const auto [found, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(all_.size()));
     if (is_new) all_.push_back(point);
@@ -104,7 +107,8 @@ std::vector<std::uint32_t> list_points(const SceneryMesh& mesh, const Eigen::Ali
   return used;
 }
 
-std::vector<std::uint32_t> list_points(const PropMesh& mesh, const Effort& effort, Points& points) {
+std::vector<std::uint32_t> list_points(const PropMesh& mesh, const Effort& effort, float share_m,
+                                       Points& points) {
   constexpr std::size_t kCardCorners = 4;
   std::vector<std::uint32_t> used;
   used.reserve(mesh.vertices.size());
@@ -112,8 +116,8 @@ std::vector<std::uint32_t> list_points(const PropMesh& mesh, const Effort& effor
     const PropVertex& vertex = mesh.vertices[i];
     const bool is_leaf = vertex.paint[3] == static_cast<std::uint8_t>(Finish::leaves);
     if (!is_leaf || i + kCardCorners > mesh.vertices.size()) {
-      used.push_back(
-          points.add({vertex_position(vertex), vertex_normal(vertex), effort.props, false}));
+      used.push_back(points.add(
+          {vertex_position(vertex), vertex_normal(vertex), effort.props, false, share_m}));
       continue;
     }
     // A card's corners share the light of its middle.
@@ -154,8 +158,11 @@ PlacePoints list_points(const PlaceMeshes& meshes, const Eigen::AlignedBox2d& gr
     listed.scenery = is_empty ? in_the_open(meshes.scenery.vertices)
                               : list_points(meshes.scenery, ground, effort.scenery, listed.points);
     for (const PlacedProp& prop : meshes.props) {
-      listed.props.push_back(prop.is_backdrop ? in_the_open(prop.mesh.vertices)
-                                              : list_points(prop.mesh, effort, listed.points));
+      constexpr float kDetailM = 0.5F;
+      const float share_m = prop.is_detail ? kDetailM : 0;
+      listed.props.push_back(prop.is_backdrop
+                                 ? in_the_open(prop.mesh.vertices)
+                                 : list_points(prop.mesh, effort, share_m, listed.points));
     }
     if (listed.points.all().size() <= kMaxPoints || step_m >= kMaxShareM) return listed;
     step_m = std::max(kShareM, 1.5F * step_m);

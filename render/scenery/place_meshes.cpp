@@ -39,7 +39,7 @@ void add_building_details(const world::Scenario& scenario, bool semantic,
       return semantic ? id_with_class(kIdBuilding + i, value) : kIdBuilding + i;
     };
     const auto add = [&](PropMesh mesh) {
-      if (!mesh.indices.empty()) props.push_back({.mesh = std::move(mesh)});
+      if (!mesh.indices.empty()) props.push_back({.mesh = std::move(mesh), .is_detail = true});
     };
     add(roof_details(model, id_of(world::SemanticClass::roof)));
     const auto& footprint = model.building.footprint;

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "render/buildings/scenery_mesh.h"
 #include "render/props/prop_mesh.h"
 #include "render/scenery/ground_layers.h"
-#include "render/buildings/scenery_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {
@@ -17,6 +17,7 @@ struct PlacedProp {
   bool closed = true;        ///< only its outside is visible
   bool casts = true;         ///< throws a shadow
   bool is_backdrop = false;  ///< only colors show it
+  bool is_detail = false;    ///< of small parts, between which light hardly varies
   double from_s = 0;         ///< absent before this time
 };
 

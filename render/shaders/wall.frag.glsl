@@ -221,7 +221,7 @@ void add_door(inout Surface s, ivec2 key, vec2 p, vec2 width) {
   s.glow *= 1.0 - surround;
 }
 
-// The doorway of an exit (render/scenery/scenery_details.h): a stone frame, a lit sign above, and either a dark
+// The doorway of an exit (render/buildings/exit_doors.h): a stone frame, a lit sign above, and either a dark
 // passage between opened leaves or closed ones, each about 1 m wide.
 Surface exit_door(vec2 p, vec2 size, bool open) {
   vec2 width = fwidth(p);
@@ -343,6 +343,12 @@ Surface facade(vec2 p, vec2 size, uint building) {
   if (kind == 6 || kind == 7) {
     Surface plain = dull();
     plain.albedo = wall_albedo(p + vec2(0.0, 3.0), width, brick);
+    // Windows of the attic, where they have room below the slopes.
+    float room = 0.5 * size.x * (1.0 - 2.3 / size.y);
+    float apart = room > 2.2 ? 1.25 : 0.0;
+    float middle = 0.5 * size.x + apart * sign(p.x - 0.5 * size.x);
+    Window attic = Window(vec2(0.45, 0.65), vec2(2.0, 1.0), 0.5, 0.08, 0.0, false);
+    if (room > 0.9) add_window(plain, attic, key + ivec2(int(middle), 5), p - vec2(middle, 0.7), width);
     return plain;
   }
   if (size.y < kLowestStory && kind != 3) return low_wall(p, size, key, brick);

@@ -1,5 +1,5 @@
 // Doors where exits are in walls, and what stands on roofs.
-#include "render/scenery/scenery_details.h"
+#include "render/buildings/exit_doors.h"
 
 #include <gtest/gtest.h>
 
@@ -75,21 +75,6 @@ TEST(ExitDoors, ShowAnOpeningAndHideNothingElse) {
   };
   EXPECT_LT(middle(open, 2), 200) << "a dark passage";
   EXPECT_EQ(middle(open, -3), middle(bare, -3));
-}
-
-TEST(RoofPlant, StandsOnLargeRoofsInsideTheirEdges) {
-  const world::Scenario scenario = open_ground({block(8, 20, -6, 6, 5), block(-9, -2, -3, 3, 5)});
-  const std::vector<SceneryVertex> corners = rectangle_corners(scenario, WallLook::plant);
-  EXPECT_GT(corners.size(), 40U);
-  std::set<std::uint32_t> ids;
-  for (const SceneryVertex& corner : corners) {
-    ids.insert(corner.id);
-    const auto& [x, y, z] = corner.position;
-    EXPECT_TRUE(x > 8.5 && x < 19.5 && y > -5.5 && y < 5.5) << x << ' ' << y;
-    EXPECT_TRUE(z >= 5 && z <= 5 + kRoofPlantM + 1e-5) << z;
-  }
-  EXPECT_EQ(ids, std::set<std::uint32_t>{kIdBuilding}) << "the second roof is too small";
-  EXPECT_NEAR(tallest_m(scenario), 5 + kRoofPlantM, 1e-9) << "so that it casts shadows";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ import type { Json, JsonObject } from "../form/json";
 export type Point = [number, number]; ///< m, x to the east, y to the north
 
 export interface FieldSpec {
-  key: string;
+  key: string; ///< of its member; "a/b" of a member of a member
   label: string;
   type: "text" | "number" | "choice" | "check" | "exit";
   unit?: string;
@@ -29,6 +29,8 @@ export interface Kind {
 const kDoing: FieldSpec = { key: "doing", label: "Doing", type: "choice", choices: ["stroll", "wait", "cross", "leave"], isRequired: true };
 const number = (key: string, label: string, unit = "", usual = ""): FieldSpec => ({ key, label, type: "number", unit, usual });
 const kId: FieldSpec = { key: "id", label: "Id", type: "text", isRequired: true };
+const kRoofKinds = ["flat", "gabled", "hipped", "half_hipped", "mansard", "shed", "sawtooth", "pyramid", "dome"];
+const kCoverings = ["gravel", "tiles", "slate", "metal", "grass", "felt"];
 const kPropKinds = [
   "tree",
   "bench",
@@ -65,7 +67,13 @@ export const kKinds: Kind[] = [
     fields: [
       kId,
       { ...number("height_m", "Height", "m"), isRequired: true },
-      { key: "facade", label: "Facade", type: "choice", choices: ["plaster", "brick", "glass", "hedge", "screen"], usual: "by number" },
+      { key: "facade", label: "Facade", type: "choice", choices: ["plaster", "brick", "historic", "modern", "concrete", "warehouse", "glass", "hedge", "screen"], usual: "by number" },
+      { key: "color", label: "Color", type: "text", usual: "#rrggbb" },
+      { key: "roof/kind", label: "Roof", type: "choice", choices: kRoofKinds, usual: "by number" },
+      { key: "roof/material", label: "Roof of", type: "choice", choices: kCoverings, usual: "by kind" },
+      number("roof/height_m", "Roof height", "m", "by pitch"),
+      number("roof/pitch_deg", "Roof pitch", "deg", "by kind"),
+      { key: "roof/color", label: "Roof color", type: "text", usual: "#rrggbb" },
     ],
     members: { height_m: 9 },
   },

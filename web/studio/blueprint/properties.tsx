@@ -76,8 +76,9 @@ interface PropertiesProps {
 }
 
 function ElementField({ document, element, field, onChange }: Omit<PropertiesProps, "onRemove"> & { field: FieldSpec }) {
-  const set = (value: Json | undefined) => onChange(withValue(document, [...element.path, field.key], value) as JsonObject);
-  const value = element.value[field.key];
+  const path = field.key.split("/");
+  const set = (value: Json | undefined) => onChange(withValue(document, [...element.path, ...path], value) as JsonObject);
+  const value = valueAt(element.value, path);
   if (field.type === "check") {
     return (
       <label class="row check-field">
