@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "render/props/prop_mesh.h"
-#include "render/scenery/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 
 namespace throng::render {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "render/props/prop_mesh.h"
-#include "render/scenery/ground_layers.h"
-#include "render/scenery/scenery_mesh.h"
+#include "render/ground/ground_layers.h"
+#include "render/ground/scenery_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {

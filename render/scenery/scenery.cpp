@@ -9,7 +9,7 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
 #include "render/frame/frame.h"
-#include "render/scenery/ground_tone.h"
+#include "render/ground/ground_tone.h"
 #include "render/scenery/hedges.h"
 #include "render/scenery/scenery_details.h"
 

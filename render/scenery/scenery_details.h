@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "render/scenery/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {

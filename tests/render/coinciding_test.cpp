@@ -19,7 +19,7 @@
 #include "render/frame/frame.h"
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
-#include "render/scenery/ground_layers.h"
+#include "render/ground/ground_layers.h"
 #include "render/scenery/rubble.h"
 #include "render/scenery/scenery.h"
 #include "world/scenario.h"

@@ -8,7 +8,7 @@
 
 #include "base/geometry/polygon.h"
 #include "render/scenery/far_land.h"
-#include "render/scenery/ground_layers.h"
+#include "render/ground/ground_layers.h"
 #include "render/scenery/hedges.h"
 #include "render/scenery/land_pattern.h"
 #include "render/scenery/surface_classes.h"

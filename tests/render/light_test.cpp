@@ -10,7 +10,7 @@
 #include "render/light/place_light.h"
 #include "render/light/refine.h"
 #include "render/light/surfaces.h"
-#include "render/scenery/ground_texture.h"
+#include "render/ground/ground_texture.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {

@@ -16,10 +16,14 @@ struct SceneryVertex {
   std::array<float, 3> normal{};
   /// Walls: coordinates along the wall and up, length and height of the wall (m). Roofs:
   /// coordinates from the corner of the roof's bounds, and their size (m). Ground:
-  /// ground_tone_at(), then in wide areas 1 m and the distance to their outline (m), else 0.
+  /// ground_tone_at(), then in wide areas 1 m and the distance to their outline (m), else 0, then
+  /// coordinates along and across a strip (m). Decals: ground_tone_at(), half of the length,
+  /// coordinates from the middle along and across (m).
   std::array<float, 4> local{};
-  std::uint32_t id = 0;  ///< value in the id buffer
-  float facade = 0;      ///< walls: value of world::Facade or WallLook
+  std::uint32_t id = 0;  ///< value in the id buffer; decals, which leave it alone: a random number
+  /// Walls: value of world::Facade or WallLook. Decals: value of DecalKind + width / length,
+  /// which is below 1.
+  float facade = 0;
   /// Light from sky, lamps and bounces on a white surface here (render/light/place_light.h).
   std::array<float, 3> light{};
 };
@@ -37,6 +41,7 @@ struct SceneryMesh {
   Range walls;
   Range roofs;
   Range ground;
+  Range decals;        ///< traces of use on the ground, which only color it
   Range surroundings;  ///< the plain beyond the ground's edge, to the horizon
 };
 

@@ -1,4 +1,4 @@
-#include "render/scenery/ground_tone.h"
+#include "render/ground/ground_tone.h"
 
 #include <array>
 #include <cstdint>
