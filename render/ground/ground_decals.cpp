@@ -206,18 +206,23 @@ class Scatterer {
     }
   }
 
-  /// Dark joints at the feet of kerbs that stand up.
+  /// Dirt and shade at the feet of kerbs.
   void add_shades() {
     constexpr double kHalfM = 0.12;
+    constexpr double kInRoadM = 0.2;
+    const auto add_shade = [&](const GroundSegment& edge, double off_m) {
+      const double half_m = 0.5 * edge.length_m();
+      if (half_m <= kHalfM) return;
+      decals_.push_back({DecalKind::shade,
+                         0.5 * (edge.from + edge.to) + off_m * edge.left(),
+                         {half_m, kHalfM},
+                         edge.along()});
+    };
+    for (const GroundSegment& kerb : kerbs_) add_shade(kerb, kInRoadM);
     for (const world::GroundArea& area : scenario_.areas) {
-      if (!area.kerb || (area.material != "grass" && area.material != "dirt")) continue;
+      if (!is_bed(area)) continue;
       for (std::size_t i = 0; i < area.corners.size(); ++i) {
-        const Vector2d& from = area.corners[i];
-        const Vector2d& to = area.corners[(i + 1) % area.corners.size()];
-        const double half_m = 0.5 * (to - from).norm();
-        if (half_m <= kHalfM) continue;
-        decals_.push_back(
-            {DecalKind::shade, 0.5 * (from + to), {half_m, kHalfM}, (to - from).normalized()});
+        add_shade({area.corners[i], area.corners[(i + 1) % area.corners.size()]}, 0);
       }
     }
   }

@@ -22,11 +22,6 @@ using Polygon = std::vector<Vector2d>;
 
 constexpr double kKerbStoneM = 0.16;
 
-/// Whether kerb stones around an area stand up: nobody needs to walk over them.
-bool is_bed(const world::GroundArea& area) {
-  return area.kerb && (area.material == "grass" || area.material == "dirt");
-}
-
 /// Lays strips on an area whose outline may have any shape.
 class Mosaic {
  public:

@@ -114,7 +114,7 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario, Scen
   layer("paint", [&] { add_paint(scenario, map, builder); });
   layer("tactile", [&] { add_tactile_paving(scenario, map, builder); });
   layer("kerb", [&] { add_kerbs(scenario, map, builder); });
-  layer("setts", [&] { add_gutters(map, builder); });
+  layer("gutter", [&] { add_gutters(map, builder); });
   const std::vector<int> levels = area_levels(scenario.areas);
   for (std::size_t i = scenario.areas.size(); i-- > 0;) {
     const world::GroundArea& area = scenario.areas[i];

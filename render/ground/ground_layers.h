@@ -11,8 +11,8 @@
 
 namespace throng::render {
 
-/// A layer's triangles and their material: a ground material, "setts", "tactile", "kerb" or
-/// "paint".
+/// A layer's triangles and their material: a ground material, "setts", "gutter", "tactile", "kerb"
+/// or "paint".
 struct GroundLayer {
   std::string material;
   Range range;

@@ -39,6 +39,11 @@ class GroundMap {
   std::vector<Eigen::AlignedBox2d> buildings_;  ///< bounds of each
 };
 
+/// Whether kerb stones around an area stand up: nobody needs to walk over them.
+inline bool is_bed(const world::GroundArea& area) {
+  return area.kerb && (area.material == "grass" || area.material == "dirt");
+}
+
 /// Whether a material is a pavement for people on foot.
 inline bool is_paved(std::string_view material) {
   return material == "pavers" || material == "concrete";

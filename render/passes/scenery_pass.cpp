@@ -27,7 +27,7 @@ constexpr double kLowSunRad = 0.6;
 constexpr GLuint kGroundUnit = 3;  // also in shaders/ground.frag.glsl
 
 std::string_view choose_shader(const std::string& material, const world::Scenario& scenario) {
-  const std::array<std::pair<std::string_view, std::string_view>, 9> materials = {{
+  const std::array<std::pair<std::string_view, std::string_view>, 10> materials = {{
       {"pavers", embedded::shader_ground_pavers},
       {"asphalt", embedded::shader_ground_asphalt},
       {"grass", embedded::shader_ground_grass},
@@ -36,6 +36,7 @@ std::string_view choose_shader(const std::string& material, const world::Scenari
       {"kerb", embedded::shader_ground_kerb},
       {"paint", embedded::shader_ground_paint},
       {"setts", embedded::shader_ground_setts},
+      {"gutter", embedded::shader_ground_setts},
       {"tactile", embedded::shader_ground_tactile},
   }};
   for (const auto& [name, text] : materials) {
@@ -66,7 +67,7 @@ constexpr std::string_view kPlain = "surroundings";
 
 /// Whether a ground's pattern follows the strips that it is laid in.
 bool is_strip(std::string_view material) {
-  return material == "kerb" || material == "setts" || material == "tactile";
+  return material == "kerb" || material == "setts" || material == "gutter" || material == "tactile";
 }
 
 /// Whether a ground's pattern is looked up rather than worked out for each pixel: those that are

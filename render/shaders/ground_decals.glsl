@@ -17,10 +17,10 @@ const float kFarM = 120.0;
 
 // Small things, one in a share of the cells of a grid: the cells' size (m), their share, least and
 // most half length (m).
-const vec4 kThings[5] = vec4[](vec4(0.17, 0.55, 0.025, 0.06), vec4(0.42, 0.42, 0.015, 0.075),
+const vec4 kThings[5] = vec4[](vec4(0.16, 0.50, 0.030, 0.072), vec4(0.42, 0.42, 0.015, 0.075),
                                vec4(0.17, 0.40, 0.010, 0.026), vec4(0.16, 0.50, 0.012, 0.026),
                                vec4(0.24, 0.75, 0.035, 0.11));
-const vec3 kHues[10] = vec3[](vec3(0.20, 0.12, 0.04), vec3(0.30, 0.23, 0.06),   // leaves
+const vec3 kHues[10] = vec3[](vec3(0.16, 0.095, 0.045), vec3(0.25, 0.18, 0.08),  // leaves
                               vec3(0.60, 0.58, 0.54), vec3(0.24, 0.19, 0.15),   // paper, cups, butts
                               vec3(0.10, 0.10, 0.095), vec3(0.30, 0.29, 0.27),  // chewing gum
                               vec3(0.62, 0.62, 0.56), vec3(0.55, 0.48, 0.08),   // daisies, dandelions
@@ -103,7 +103,7 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   float away = length(at);  // 1 on the rim of the ellipse in it
   vec3 albedo = vec3(0.02);
   if (kind >= kLeaves) {
-    float dense = clamp(1.15 - away * away, 0.0, 1.0) * (0.3 + 1.3 * rough) * step(away, 1.0);
+    float dense = clamp(1.15 - away * away, 0.0, 1.0) * smoothstep(0.2, 0.75, rough) * 1.5 * step(away, 1.0);
     albedo = small_things(kind, p, dense, w, seed);
   } else if (kind == kManhole) {
     albedo = cover(p, width);
@@ -134,9 +134,9 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   } else if (kind == kSoil) {
     float edge = max(at.y, max(at.x - 0.5, 0.0) * 2.0);
     opacity = 0.88 * smoothstep(1.0, 0.45, edge + 0.8 * (rough - 0.35));
-    albedo = vec3(0.235, 0.19, 0.125) * (0.7 + 0.6 * noise(p * 16.0));
+    albedo = vec3(0.205, 0.165, 0.108) * (0.7 + 0.6 * noise(p * 16.0));
   } else if (kind == kWet) {
-    opacity = 0.38 * smoothstep(1.0, 0.7, away + 0.8 * (rough - 0.4));
+    opacity = 0.32 * smoothstep(1.0, 0.35, away + 0.7 * (rough - 0.4));
   } else if (kind == kShade) {
     float near = max(1.0 - at.y, 0.0);
     opacity = 0.5 * near;
