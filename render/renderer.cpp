@@ -26,6 +26,7 @@
 #include "render/scenery/lighting.h"
 #include "render/scenery/metering.h"
 #include "render/scenery/place_meshes.h"
+#include "render/scenery/scenery.h"
 #include "render/scenery/surface_classes.h"
 #include "render/truth/objects_in_view.h"
 #include "render/truth/people_coverage.h"

@@ -7,7 +7,7 @@
 #include "base/compute/random.h"
 #include "base/geometry/angle.h"
 #include "base/geometry/polygon.h"
-#include "render/buildings/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 
 namespace throng::render {
 

@@ -7,7 +7,7 @@
 
 #include "render/buildings/building_look.h"
 #include "render/buildings/roof_shape.h"
-#include "render/buildings/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 #include "world/building.h"
 
 namespace throng::render {

@@ -1,7 +1,7 @@
 // Doors at the scenario's exits. Independent of GL.
 #pragma once
 
-#include "render/buildings/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {

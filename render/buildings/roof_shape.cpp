@@ -11,7 +11,7 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/straight_skeleton.h"
 #include "base/geometry/triangulate.h"
-#include "render/buildings/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 
 namespace throng::render {
 

@@ -57,8 +57,10 @@ void cut_scenery(const NearMap& near, const Eigen::AlignedBox2d& ground, float s
   cut_range(indices, mesh.walls, mesh, out, on_wall);
   cut_range(indices, mesh.roofs, mesh, out, on_roof);
   cut_range(indices, mesh.ground, mesh, out, on_ground);
-  cut_range(indices, mesh.surroundings, mesh, out,
-            [](const SceneryVertex&, const SceneryVertex&) { return false; });
+  for (Range* whole : {&mesh.surroundings, &mesh.decals}) {
+    cut_range(indices, *whole, mesh, out,
+              [](const SceneryVertex&, const SceneryVertex&) { return false; });
+  }
   for (GroundLayer& layer : layers) cut_range(indices, layer.range, mesh, out, on_ground);
   mesh.indices = std::move(out);
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "render/props/prop_mesh.h"
-#include "render/buildings/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 
 namespace throng::render {
 

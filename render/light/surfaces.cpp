@@ -31,7 +31,7 @@ Array3f paint(const SceneryVertex& vertex) {
 }  // namespace
 
 RaySurface ground_surface(std::string_view material) {
-  static const std::array<std::pair<std::string_view, Array3f>, 8> kMeans = {{
+  static const std::array<std::pair<std::string_view, Array3f>, 11> kMeans = {{
       {"pavers", {0.340F, 0.319F, 0.289F}},
       {"asphalt", {0.168F, 0.166F, 0.163F}},
       {"grass", {0.118F, 0.140F, 0.053F}},
@@ -39,6 +39,9 @@ RaySurface ground_surface(std::string_view material) {
       {"dirt", {0.257F, 0.201F, 0.133F}},
       {"kerb", {0.450F, 0.445F, 0.430F}},
       {"paint", {0.490F, 0.490F, 0.466F}},
+      {"setts", {0.179F, 0.173F, 0.166F}},
+      {"gutter", {0.179F, 0.173F, 0.166F}},
+      {"tactile", {0.458F, 0.440F, 0.370F}},
       {"surroundings", {0.155F, 0.160F, 0.080F}},
   }};
   for (const auto& [name, albedo] : kMeans) {

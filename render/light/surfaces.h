@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "render/light/ray_scene.h"
-#include "render/buildings/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 
 namespace throng::render {
 

@@ -7,8 +7,9 @@
 
 #include "base/error.h"
 #include "render/buildings/facade_style.h"
+#include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
-#include "render/scenery/ground_texture.h"
+#include "render/ground/ground_texture.h"
 #include "render/scenery/land_pattern.h"
 #include "render/scenery/lighting.h"
 
@@ -27,7 +28,7 @@ constexpr double kLowSunRad = 0.6;
 constexpr GLuint kGroundUnit = 3;  // also in shaders/ground.frag.glsl
 
 std::string_view choose_shader(const std::string& material, const world::Scenario& scenario) {
-  const std::array<std::pair<std::string_view, std::string_view>, 7> materials = {{
+  const std::array<std::pair<std::string_view, std::string_view>, 10> materials = {{
       {"pavers", embedded::shader_ground_pavers},
       {"asphalt", embedded::shader_ground_asphalt},
       {"grass", embedded::shader_ground_grass},
@@ -35,6 +36,9 @@ std::string_view choose_shader(const std::string& material, const world::Scenari
       {"dirt", embedded::shader_ground_dirt},
       {"kerb", embedded::shader_ground_kerb},
       {"paint", embedded::shader_ground_paint},
+      {"setts", embedded::shader_ground_setts},
+      {"gutter", embedded::shader_ground_setts},
+      {"tactile", embedded::shader_ground_tactile},
   }};
   for (const auto& [name, text] : materials) {
     if (name == material) return text;
@@ -52,6 +56,8 @@ Program make_scenery_program(std::string_view words, std::string_view surface,
 
 constexpr std::string_view kWideFilter = "#define WIDE_FILTER\n";
 constexpr std::string_view kTextured = "#define TEXTURED\n";
+constexpr std::string_view kStrip = "#define STRIP\n";
+constexpr std::string_view kDecal = "#define DECAL\n";
 constexpr std::string_view kNoPuddles = "#define NO_PUDDLES\n";
 /// Grass and earth follow no grid, so that a second, turned look-up hides how their texture
 /// repeats; at their edges there is bare soil, or grass grows in.
@@ -60,10 +66,15 @@ constexpr std::string_view kGrass =
 constexpr std::string_view kDirt = "#define EDGE_ALBEDO vec3(0.115, 0.155, 0.052)\n";
 constexpr std::string_view kPlain = "surroundings";
 
+/// Whether a ground's pattern follows the strips that it is laid in.
+bool is_strip(std::string_view material) {
+  return material == "kerb" || material == "setts" || material == "gutter" || material == "tactile";
+}
+
 /// Whether a ground's pattern is looked up rather than worked out for each pixel: those that are
 /// small or follow no tile are not.
 bool is_baked(std::string_view material) {
-  return material != "kerb" && material != "paint" && material != kPlain;
+  return !is_strip(material) && material != "paint" && material != kPlain;
 }
 
 /// The paint of facades and roofs, in the words of a ground; windows darken walls.
@@ -102,6 +113,7 @@ SceneryPass::SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scena
       roof_range_(meshes.scenery.roofs),
       ground_range_(meshes.scenery.ground),
       surroundings_range_(meshes.scenery.surroundings),
+      decal_range_(meshes.scenery.decals),
       layers_(meshes.layers),
       vertices_(make_buffer(meshes.scenery.vertices)),
       indices_(make_buffer(meshes.scenery.indices)),
@@ -118,6 +130,8 @@ SceneryPass::SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scena
     walls_ = make_scenery_program(wide, embedded::shader_screen,
                                   facade_words() + std::string(embedded::shader_wall_frag));
     roofs_ = make_scenery_program(wide, embedded::shader_roof_frag);
+    decals_ = make_scenery_program(ground_words + std::string(kDecal), embedded::shader_ground_frag,
+                                   embedded::shader_ground_decals);
   } else {
     walls_ = make_corners_program(words, kWallAlbedo);
     roofs_ = make_corners_program(words, kRoofAlbedo);
@@ -153,7 +167,9 @@ void SceneryPass::learn(const std::string& material, std::string_view shader,
     look.program = make_scenery_program(own, kTextured, embedded::shader_ground_frag);
     look.texture = bake_ground(shader, quality.ground_texels);
   } else {
-    const std::string own = std::string(words).append(material == kPlain ? kNoPuddles : "");
+    const std::string own = std::string(words).append(material == kPlain   ? kNoPuddles
+                                                      : is_strip(material) ? kStrip
+                                                                           : "");
     look.program = make_scenery_program(own, shader, embedded::shader_ground_frag);
   }
 }
@@ -180,6 +196,9 @@ void SceneryPass::draw() const {
   for (const GroundLayer& layer : layers_) draw_ground(layer.material, layer.range);
   draw_ground(material_, ground_range_);
   draw_ground(std::string(kPlain), surroundings_range_);
+  if (decals_.name() == 0) return;
+  const ColorOnly guard;
+  draw_range(decals_, decal_range_);
 }
 
 void SceneryPass::draw_ids() const {

@@ -31,7 +31,7 @@ class SceneryPass {
   void draw_shadow() const;
 
  private:
-  /// Shader and texture of a material; drafts, kerbs and paint need no texture.
+  /// Shader and texture of a material; drafts, strips and paint need no texture.
   struct Look {
     Program program;
     Texture texture;
@@ -46,12 +46,14 @@ class SceneryPass {
   Range roof_range_;
   Range ground_range_;
   Range surroundings_range_;
+  Range decal_range_;
   std::vector<GroundLayer> layers_;  ///< uppermost first
   Buffer vertices_;
   Buffer indices_;
   VertexArray array_;
   Program walls_;
   Program roofs_;
+  Program decals_;                     ///< none for drafts
   std::map<std::string, Look> looks_;  ///< by the ground's material
   std::string material_;               ///< material of the ground that no layer covers
   Program shadow_;

@@ -10,7 +10,7 @@
 #include "render/frame/frame.h"
 #include "render/props/prop_cells.h"
 #include "render/scenery/far_objects.h"
-#include "render/scenery/ground_layers.h"
+#include "render/ground/ground_layers.h"
 #include "render/scenery/land_pattern.h"
 
 namespace throng::render {

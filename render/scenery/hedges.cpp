@@ -10,7 +10,7 @@
 #include "base/geometry/triangulate.h"
 #include "render/frame/frame.h"
 #include "render/props/prop_cells.h"
-#include "render/scenery/ground_tone.h"
+#include "render/ground/ground_tone.h"
 #include "render/scenery/surface_classes.h"
 
 namespace throng::render {

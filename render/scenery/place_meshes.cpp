@@ -11,6 +11,7 @@
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
 #include "render/scenery/far_land.h"
+#include "render/ground/ground_decals.h"
 #include "render/scenery/hedges.h"
 #include "render/scenery/rubble.h"
 #include "render/scenery/scenery.h"
@@ -91,6 +92,7 @@ PlaceMeshes place_meshes(const world::Scenario& scenario, bool semantic) {
   meshes.scenery = scenery_mesh(scenario);
   meshes.layers = add_ground_layers(scenario, meshes.scenery);
   if (semantic) add_classes(scenario, meshes.layers, meshes.scenery);
+  add_ground_decals(ground_decals(scenario), meshes.scenery);
   meshes.props = place_props(scenario, semantic);
   return meshes;
 }

@@ -4,9 +4,10 @@
 
 #include <vector>
 
-#include "render/buildings/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 #include "render/props/prop_mesh.h"
-#include "render/scenery/ground_layers.h"
+#include "render/ground/ground_layers.h"
+#include "render/ground/scenery_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {

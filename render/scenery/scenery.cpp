@@ -10,7 +10,7 @@
 #include "render/buildings/exit_doors.h"
 #include "render/buildings/roof_details.h"
 #include "render/frame/frame.h"
-#include "render/scenery/ground_tone.h"
+#include "render/ground/ground_tone.h"
 #include "render/scenery/hedges.h"
 
 namespace throng::render {

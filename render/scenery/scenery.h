@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/buildings/scenery_mesh.h"
+#include "render/ground/scenery_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {

@@ -16,9 +16,12 @@ namespace {
 using world::SemanticClass;
 
 SemanticClass class_of_ground(std::string_view material) {
-  constexpr std::array<std::pair<std::string_view, SemanticClass>, 7> kClasses = {{
+  constexpr std::array<std::pair<std::string_view, SemanticClass>, 10> kClasses = {{
       {"pavers", SemanticClass::pavement},
       {"concrete", SemanticClass::pavement},
+      {"setts", SemanticClass::pavement},
+      {"tactile", SemanticClass::pavement},
+      {"gutter", SemanticClass::road},
       {"asphalt", SemanticClass::road},
       {"grass", SemanticClass::grass},
       {"dirt", SemanticClass::dirt},

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/scenery/ground_layers.h"
+#include "render/ground/ground_layers.h"
 #include "render/scenery/scenery.h"
 
 namespace throng::render {

@@ -1,8 +1,10 @@
-// Ground of one material: with TEXTURED from its texture (render/scenery/ground_texture.h), else
-// ground_albedo comes from a ground_*.glsl.
+// Ground of one material: with TEXTURED from its texture (render/ground/ground_texture.h), else
+// ground_albedo comes from a ground_*.glsl: with STRIP in coordinates along and across a strip, with
+// DECAL in those of a decal, whose opacity it sets.
 in vec3 world;
 in vec3 ambient;
-in vec4 local;  // x: how bright the ground is here, compared with the material's mean; y: see SceneryVertex
+in vec4 local;  // x: how bright the ground is here, compared with the material's mean; others: see SceneryVertex
+flat in vec3 normal;
 flat in uint id;
 
 layout(location = 0) out vec4 color;
@@ -63,15 +65,28 @@ vec3 ground_albedo(vec2 p, vec2 width) {
 }
 #endif
 
+#ifdef DECAL
+flat in float facade_kind;
+float opacity = 1.0;
+
+vec3 ground_albedo(vec2 p, vec2 width);
+#endif
+
 void main() {
-  vec3 albedo = ground_albedo(world.xy, fwidth(world.xy)) * local.x;
+#if defined(STRIP) || defined(DECAL)
+  vec2 p = local.zw;
+#else
+  vec2 p = world.xy;
+#endif
+  // Worn and dirty ground is not only darker, but browner.
+  vec3 albedo = ground_albedo(p, fwidth(p)) * (1.0 + (local.x - 1.0) * vec3(0.88, 1.0, 1.2));
 #ifdef FIRES
   float burned = charred(world, 0.7 * noise(world.xy * 0.9) + 0.3 * noise(world.xy * 3.7));
   albedo = charcoal(albedo, burned);
 #endif
   vec3 received = ambient;
 #ifndef NO_SUN
-  received += light.sun.rgb * (light.sun_direction.z * sunlit(world, 0.02));
+  received += light.sun.rgb * (max(dot(normal, light.sun_direction.xyz), 0.0) * sunlit(world, 0.02));
 #endif
 #ifdef FIRES
   received += fire_light(world, vec3(0.0, 0.0, 1.0));
@@ -83,6 +98,10 @@ void main() {
 #ifdef WET
   radiance = wet(radiance, min(ambient.g / max(light.sky.g, 1e-6), 1.0));
 #endif
+#ifdef DECAL
+  color = vec4(film(through_air(radiance, world)), opacity);
+#else
   color = vec4(film(through_air(radiance, world)), 1.0);
+#endif
   instance = id;
 }

@@ -6,9 +6,8 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   vec2 joints = stripes_xy(p / kPanel, 0.015 / kPanel, width / kPanel);
   float tone = pick(ivec2(floor(p / kPanel)), kPanels, 1) - 0.5;
   vec3 albedo = vec3(0.42, 0.41, 0.385) * (1.0 + 0.12 * tone);
-  albedo *= 1.0 + 0.26 * clouds(p, 0.28, 2) + 0.14 * clouds(p, 2.2, 6);
+  albedo *= 1.0 + 0.14 * clouds(p, 0.8, 2) + 0.12 * clouds(p, 2.2, 6);
   albedo *= 1.0 + 0.14 * (grain(p, 34.0, 10) - 0.5) * fade;
   albedo *= 1.0 - 0.3 * cracks(p, 0.42, 0.68, 12) * fade;
-  albedo *= 1.0 - 0.17 * smoothstep(0.0, 0.9, spot(p, 0.4, 0.3, 1.0, 16) + 0.9 * clouds(p, 1.4, 20));
   return albedo * (1.0 - 0.5 * max(joints.x, joints.y));
 }

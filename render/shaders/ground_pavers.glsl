@@ -1,4 +1,5 @@
-// Granite slabs of 0.9 x 0.6 m in running bond, in fields of 7.2 m framed by darker bands.
+// Granite slabs of 0.9 x 0.6 m in running bond. Larger features, which would show how the tile
+// repeats, are geometry (render/ground/ground_edges.h) and decals.
 vec3 ground_albedo(vec2 p, vec2 width) {
   const vec2 kSlab = vec2(0.9, 0.6);
   const ivec2 kSlabs = ivec2(16, 24);
@@ -14,11 +15,8 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   float warmth = (pick(cell, kSlabs, 2) - 0.5) * fade;
   // A few slabs were laid later, from another quarry.
   float newer = step(0.955, pick(cell, kSlabs, 3)) * fade;
-  vec2 field = stripes_xy(p / 7.2, 0.6 / 7.2, width / 7.2);
-  float frame = max(field.x, field.y);
   vec3 albedo = vec3(0.385, 0.36, 0.325) * (1.0 + 0.24 * tone - 0.16 * newer);
   albedo *= 1.0 + 0.08 * warmth * vec3(1.0, 0.0, -1.0);
-  albedo = mix(albedo, vec3(0.20, 0.195, 0.19) * (1.0 + 0.25 * tone), 0.85 * frame);
   albedo *= 1.0 + 0.30 * (grain(p, 34.0, 4) - 0.5) * fade;
   // Dirt gathers along the joints, more of it in some places.
   vec2 edge = min(fract(slab), 1.0 - fract(slab)) * kSlab;
@@ -26,8 +24,6 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   float rim = smoothstep(0.09, 0.0, min(edge.x, edge.y)) * fade;
   albedo *= 1.0 - 0.30 * rim * smoothstep(0.25, 0.85, dirty + 0.4 * clouds(p, 2.2, 8));
   albedo *= 1.0 - (0.35 + 0.4 * dirty) * joint;
-  albedo *= 1.0 + 0.34 * clouds(p, 0.28, 12) + 0.16 * clouds(p, 1.6, 16);
-  albedo *= 1.0 - 0.17 * smoothstep(0.0, 0.9, spot(p, 0.4, 0.3, 1.0, 20) + 0.9 * clouds(p, 1.4, 24));
-  albedo *= 1.0 - 0.45 * step(0.12, spot(p, 2.4, 0.20, 0.035, 28)) * fade;  // chewing gum
+  albedo *= 1.0 + 0.16 * clouds(p, 0.9, 12) + 0.12 * clouds(p, 2.4, 16);
   return albedo;
 }

@@ -1,6 +1,6 @@
 // Irregularity for the grounds, repeated with the tile that their textures hold. `salt`
 // distinguishes patterns of one material apart.
-const float kTileM = 14.4;  // also in render/scenery/ground_texture.h
+const float kTileM = 14.4;  // also in render/ground/ground_texture.h
 
 ivec2 wrapped(ivec2 cell, ivec2 count) {
   return cell - count * ivec2(floor(vec2(cell) / vec2(count)));

@@ -329,7 +329,7 @@ void add_graffiti(inout Surface s, ivec2 key, vec2 p, vec2 size, vec2 width) {
 }
 
 Surface facade(vec2 p, vec2 size, uint building) {
-  const float kLowestStory = 2.6;  // kMinStoryM of render/buildings/scenery_mesh.h
+  const float kLowestStory = 2.6;  // kMinStoryM of render/ground/scenery_mesh.h
   vec2 width = fwidth(p);
   int more = int(paint.a * 255.0 + 0.5);
   ivec2 key = ivec2(int(building) + 977 * (more & 127), 3);

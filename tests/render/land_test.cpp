@@ -7,10 +7,11 @@
 #include <set>
 
 #include "base/geometry/polygon.h"
+#include "render/ground/ground_layers.h"
 #include "render/scenery/far_land.h"
-#include "render/scenery/ground_layers.h"
 #include "render/scenery/hedges.h"
 #include "render/scenery/land_pattern.h"
+#include "render/scenery/scenery.h"
 #include "render/scenery/surface_classes.h"
 #include "tests/render/stage.h"
 

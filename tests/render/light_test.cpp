@@ -6,11 +6,12 @@
 
 #include "base/compute/parallel.h"
 #include "render/gl/shaders.h"
+#include "render/ground/ground_texture.h"
 #include "render/light/light_bake.h"
 #include "render/light/place_light.h"
 #include "render/light/refine.h"
 #include "render/light/surfaces.h"
-#include "render/scenery/ground_texture.h"
+#include "render/scenery/scenery.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {

@@ -317,7 +317,9 @@ TEST(GroundLayers, LieOnTheGroundAndShowTheirMaterials) {
   }
   EXPECT_GE(bars, 7) << "paint, worn here and there, and gaps";
   for (const std::uint32_t id : frame.id) ASSERT_EQ(id, kIdGround);
-  for (const float depth : frame.depth_m) ASSERT_NEAR(depth, 20, 0.0021);
+  for (const float depth : frame.depth_m) {
+    ASSERT_NEAR(depth, 20, 0.0021 + 0.05) << "the kerb around grass stands up";
+  }
 }
 
 }  // namespace

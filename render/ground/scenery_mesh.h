@@ -15,11 +15,15 @@ struct SceneryVertex {
   std::array<float, 3> position{};  ///< m
   std::array<float, 3> normal{};
   /// Walls: coordinates along the front and up, length and height of the front (m). Roofs:
-  /// coordinates along the eaves and up the slope (m). Ground:
-  /// ground_tone_at(), then in wide areas 1 m and the distance to their outline (m), else 0.
+  /// coordinates along the eaves and up the slope (m). Ground: ground_tone_at(), then in wide areas
+  /// 1 m and the distance to their outline (m), else 0, then coordinates along and across a strip
+  /// (m). Decals: ground_tone_at(), half of the length, coordinates from the middle along and
+  /// across (m).
   std::array<float, 4> local{};
-  std::uint32_t id = 0;  ///< value in the id buffer
-  float facade = 0;      ///< walls: world::Facade or WallLook; roofs: world::Covering or RoofLook
+  std::uint32_t id = 0;  ///< value in the id buffer; decals, which leave it alone: a random number
+  /// Walls: value of world::Facade or WallLook. Roofs: of world::Covering or RoofLook. Decals: value
+  /// of DecalKind + width / length, which is below 1.
+  float facade = 0;
   /// Walls and roofs: linear albedo; of a front then a number that distinguishes it, of which the
   /// highest bit says that it has shops.
   std::array<std::uint8_t, 4> paint{};
@@ -40,6 +44,7 @@ struct SceneryMesh {
   Range walls;
   Range roofs;
   Range ground;
+  Range decals;        ///< traces of use on the ground, which only color it
   Range surroundings;  ///< the plain beyond the ground's edge, to the horizon
 };
 

@@ -1,17 +1,18 @@
-// Areas of other materials, kerbs and paint on the ground, as flat layers about a millimeter above
-// it.
+// Areas of other materials, bands of setts, kerbs and paint on the ground, as layers: flat ones
+// about a millimeter above it.
 #pragma once
 
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
-#include "render/scenery/scenery.h"
+#include "render/ground/scenery_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {
 
-/// A layer's triangles and their material: a ground material, "kerb" or "paint".
+/// A layer's triangles and their material: a ground material, "setts", "gutter", "tactile", "kerb"
+/// or "paint".
 struct GroundLayer {
   std::string material;
   Range range;
@@ -23,7 +24,7 @@ std::vector<std::vector<Eigen::Vector2d>> streets_beyond(const world::Scenario& 
                                                          std::size_t area);
 
 /// Appends the layers of a scenario to the mesh, the uppermost first, so that covered ground need
-/// not be shaded. All are below people's soles (kAboveGround, 2 mm).
+/// not be shaded.
 std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario, SceneryMesh& mesh);
 
 }  // namespace throng::render

@@ -1,4 +1,4 @@
-#include "render/scenery/ground_texture.h"
+#include "render/ground/ground_texture.h"
 
 #include <bit>
 

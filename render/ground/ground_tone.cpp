@@ -1,4 +1,4 @@
-#include "render/scenery/ground_tone.h"
+#include "render/ground/ground_tone.h"
 
 #include <array>
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace throng::render {
 
 float ground_tone_at(const Eigen::Vector2d& point) {
-  constexpr std::array<std::array<double, 2>, 3> kOctaves = {{{23, 0.14}, {9, 0.12}, {4, 0.10}}};
+  constexpr std::array<std::array<double, 2>, 3> kOctaves = {{{23, 0.19}, {9, 0.14}, {4, 0.10}}};
   const auto corner = [](double x, double y, std::uint64_t octave) {
     constexpr double kOffset = 1 << 24;  // indices are not negative
     const auto column = static_cast<std::uint64_t>(x + kOffset);
