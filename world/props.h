@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "world/semantic_class.h"
+
 namespace throng::world {
 
 struct Scenario;
@@ -27,18 +29,94 @@ enum class PropKind : std::uint8_t {
   train,
   fountain,
   bush,
-  planter
+  planter,
+  van,
+  delivery_truck,
+  food_truck,
+  bus,
+  moped,
+  motorcycle,
+  bicycle,
+  bicycle_rack,
+  cargo_bike,
+  traffic_sign,
+  traffic_light,
+  street_sign,
+  parking_meter,
+  post_box,
+  hydrant,
+  newspaper_box,
+  advertising_column,
+  bus_stop,
+  cabinet,
+  phone_booth,
+  vending_machine,
+  wheelie_bin,
+  wheelie_bins,
+  recycling_container,
+  skip,
+  garbage_bags,
+  cafe_table,
+  beer_table,
+  picnic_table,
+  a_board,
+  flower_pots,
+  wall_box,
+  info_board,
+  swing,
+  slide,
+  spring_rider,
+  sandbox,
+  statue,
+  flagpole,
+  drinking_fountain,
+  scaffold,
+  construction_fence,
+  cone,
+  portable_toilet,
+  crates,
+  pallet,
+  cardboard,
+  market_goods,
+  flower_stand,
+  clothes_rack,
+  kick_scooter,
+  charging_station
 };
-inline constexpr std::size_t kPropKinds = 16;
+inline constexpr std::size_t kPropKinds = 68;
 
-/// Name of a kind in files and its size on the ground at scale 1: half of its length along its
-/// heading and half of its width (m). People cannot walk there.
-struct PropType {
-  std::string_view name;
-  /// Types of props, in the order of PropKind.
-  Eigen::Vector2d half_size;
+/// Ground on which clutter strews a kind (world/clutter.h).
+enum class Habitat : std::uint8_t {
+  none,    ///< only where a scenario says so
+  facade,  ///< in front of a wall; its back to it
+  wall,    ///< so flat on a wall that it is in nobody's way
+  kerb,    ///< on the pavement, beside a road
+  road,    ///< parked along the edge of a road
+  lawn,    ///< on grass
+  corner,  ///< beside the corner of a building
+  lot      ///< on wide paved ground
 };
+
+/// Form of a prop where it meets the ground.
+enum class Foot : std::uint8_t { rectangle, disc, posts };
+
+/// A kind of prop at scale 1.
+struct PropType {
+  std::string_view name;  ///< in files
+  /// Half of its length along its heading and half of its width, up to the height of people's
+  /// heads (m). Nobody can walk there.
+  Eigen::Vector2d half_size;
+  double height_m = 0;  ///< at most; 0: it grows
+  SemanticClass semantic_class{};
+  Foot foot = Foot::rectangle;
+  Habitat habitat = Habitat::none;
+};
+
+/// Kinds of props, in the order of PropKind.
 const std::array<PropType, kPropKinds>& prop_types();
+inline const PropType& prop_type(PropKind kind) {
+  return prop_types().at(static_cast<std::size_t>(kind));
+}
 
 struct Prop {
   PropKind kind = PropKind::tree;

@@ -46,6 +46,20 @@ constexpr std::array<SemanticClassInfo, kSemanticClasses> kClasses = {{
     {C::stands, "stands", {90, 110, 160}, G::prop},
     {C::bush, "bush", {70, 140, 70}, G::prop},
     {C::planter, "planter", {190, 120, 90}, G::prop},
+    {C::van, "van", {0, 60, 140}, G::prop},
+    {C::truck, "truck", {0, 0, 90}, G::prop},
+    {C::bus, "bus", {0, 60, 100}, G::prop},
+    {C::motorcycle, "motorcycle", {0, 0, 230}, G::prop},
+    {C::bicycle, "bicycle", {119, 11, 32}, G::prop},
+    {C::sign, "sign", {220, 220, 0}, G::prop},
+    {C::traffic_light, "traffic_light", {250, 170, 30}, G::prop},
+    {C::street_furniture, "street_furniture", {90, 120, 150}, G::prop},
+    {C::table, "table", {170, 110, 70}, G::prop},
+    {C::goods, "goods", {200, 90, 60}, G::prop},
+    {C::playground, "playground", {230, 70, 160}, G::prop},
+    {C::statue, "statue", {130, 160, 140}, G::prop},
+    {C::flagpole, "flagpole", {170, 200, 230}, G::prop},
+    {C::construction, "construction", {240, 150, 0}, G::prop},
 }};
 
 constexpr bool is_in_order() {
@@ -58,12 +72,9 @@ static_assert(is_in_order(), "the table has the order of the enumerators");
 
 }  // namespace
 
-SemanticClass semantic_class(PropKind kind) {
-  // Both lists have the same order, in two parts: numbers of classes never change.
-  const bool is_later = kind >= PropKind::bush;
-  const auto first = static_cast<std::size_t>(is_later ? C::bush : C::tree);
-  const auto first_kind = static_cast<std::size_t>(is_later ? PropKind::bush : PropKind::tree);
-  return static_cast<SemanticClass>(first + static_cast<std::size_t>(kind) - first_kind);
+bool is_vehicle(SemanticClass value) {
+  return value == C::car || value == C::train || value == C::van || value == C::truck ||
+         value == C::bus || value == C::motorcycle;
 }
 
 std::optional<SemanticClass> semantic_class_named(std::string_view name) {

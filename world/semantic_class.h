@@ -8,8 +8,6 @@
 #include <span>
 #include <string_view>
 
-#include "world/props.h"
-
 namespace throng::world {
 
 enum class SemanticClass : std::uint8_t {
@@ -49,8 +47,22 @@ enum class SemanticClass : std::uint8_t {
   stands = 33,  ///< tiers of seats
   bush = 34,
   planter = 35,
+  van = 36,
+  truck = 37,
+  bus = 38,
+  motorcycle = 39,  ///< and mopeds
+  bicycle = 40,     ///< with its rack; kick scooters
+  sign = 41,        ///< of traffic, streets, maps and shops
+  traffic_light = 42,
+  street_furniture = 43,  ///< post boxes, meters, cabinets, shelters, columns, hydrants
+  table = 44,             ///< with its chairs and parasol
+  goods = 45,             ///< for sale or delivered, with their crates
+  playground = 46,
+  statue = 47,
+  flagpole = 48,
+  construction = 49,  ///< scaffolds, fences, cones, skips, cabins
 };
-inline constexpr std::size_t kSemanticClasses = 36;
+inline constexpr std::size_t kSemanticClasses = 50;
 
 /// Kinds of instances to which a pixel can belong.
 enum class SemanticGroup : std::uint8_t {
@@ -70,8 +82,9 @@ struct SemanticClassInfo {
   SemanticGroup group{};
 };
 
-/// Returns the class of a kind of prop.
-SemanticClass semantic_class(PropKind kind);
+/// Whether things of a class are vehicles, which have labels of their own: motor vehicles and
+/// trains.
+bool is_vehicle(SemanticClass value);
 
 /// Returns the class with this name, or nothing.
 std::optional<SemanticClass> semantic_class_named(std::string_view name);

@@ -50,6 +50,10 @@ inline constexpr std::array kObjectCategories = {
     ObjectCategory{2, "drone", world::SemanticClass::drone},
     ObjectCategory{3, "car", world::SemanticClass::car},
     ObjectCategory{4, "train", world::SemanticClass::train},
+    ObjectCategory{5, "van", world::SemanticClass::van},
+    ObjectCategory{6, "truck", world::SemanticClass::truck},
+    ObjectCategory{7, "bus", world::SemanticClass::bus},
+    ObjectCategory{8, "motorcycle", world::SemanticClass::motorcycle},
 };
 inline constexpr int kDroneCategory = kObjectCategories.front().id;
 

@@ -23,6 +23,12 @@ constexpr CityscapesClass kTerrain{22, "terrain", 9, {152, 251, 152}};
 constexpr CityscapesClass kSky{23, "sky", 10, {70, 130, 180}};
 constexpr CityscapesClass kPerson{24, "person", 11, {220, 20, 60}};
 constexpr CityscapesClass kCar{26, "car", 13, {0, 0, 142}};
+constexpr CityscapesClass kTruck{27, "truck", 14, {0, 0, 70}};
+constexpr CityscapesClass kBus{28, "bus", 15, {0, 60, 100}};
+constexpr CityscapesClass kMotorcycle{32, "motorcycle", 17, {0, 0, 230}};
+constexpr CityscapesClass kBicycle{33, "bicycle", 18, {119, 11, 32}};
+constexpr CityscapesClass kTrafficLight{19, "traffic light", 6, {250, 170, 30}};
+constexpr CityscapesClass kTrafficSign{20, "traffic sign", 7, {220, 220, 0}};
 constexpr CityscapesClass kTrain{31, "train", 16, {0, 80, 100}};
 
 constexpr UavidClass kUavidClutter{"background clutter", {0, 0, 0}};
@@ -76,6 +82,20 @@ constexpr std::array<Mapping, world::kSemanticClasses> kMappings = {{
     {C::stands, kBuilding, kUavidBuilding},
     {C::bush, kVegetation, kUavidVegetation},
     {C::planter, kStatic, kUavidVegetation},
+    {C::van, kCar, kUavidStaticCar},
+    {C::truck, kTruck, kUavidStaticCar},
+    {C::bus, kBus, kUavidStaticCar},
+    {C::motorcycle, kMotorcycle, kUavidClutter},
+    {C::bicycle, kBicycle, kUavidClutter},
+    {C::sign, kTrafficSign, kUavidClutter},
+    {C::traffic_light, kTrafficLight, kUavidClutter},
+    {C::street_furniture, kStatic, kUavidClutter},
+    {C::table, kStatic, kUavidClutter},
+    {C::goods, kStatic, kUavidClutter},
+    {C::playground, kStatic, kUavidClutter},
+    {C::statue, kStatic, kUavidClutter},
+    {C::flagpole, kPole, kUavidClutter},
+    {C::construction, kStatic, kUavidClutter},
 }};
 
 constexpr bool is_in_order() {

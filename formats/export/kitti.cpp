@@ -94,6 +94,22 @@ constexpr std::string_view kLensNote =
     "Files without such a line are a pinhole's. Boxes of label_2 are those of the distorted\n"
     "images; places, sizes and rotation_y are those of the camera's frame.\n";
 
+/// What KITTI has no type for is "Misc".
+std::string_view kitti_type(world::SemanticClass vehicle) {
+  switch (vehicle) {
+    case world::SemanticClass::car:
+      return "Car";
+    case world::SemanticClass::van:
+      return "Van";
+    case world::SemanticClass::truck:
+      return "Truck";
+    case world::SemanticClass::train:
+      return "Tram";
+    default:
+      return "Misc";
+  }
+}
+
 class KittiExporter : public Exporter {
  public:
   KittiExporter(const DatasetInfo& info, Output output) : info_(info), output_(std::move(output)) {}
@@ -107,7 +123,7 @@ class KittiExporter : public Exporter {
     for (const Person& object : image.objects) {
       const world::SemanticClass surface = info_.surface_material(object);
       if (surface == world::SemanticClass::drone) continue;
-      append_label(labels, image, object, surface == world::SemanticClass::car ? "Car" : "Tram");
+      append_label(labels, image, object, kitti_type(surface));
     }
     output_.write(fmt::format("{}/label_2/{}.txt", split, stem), labels);
     output_.write(fmt::format("{}/calib/{}.txt", split, stem), calibration(image));

@@ -56,7 +56,7 @@ std::string color_png(const Classes& classes, auto&& color_of) {
                              std::span<const std::uint8_t>(samples));
 }
 
-/// Cityscapes' instanceIds: the label, or for people, cars and trains 1000 times the label and a
+/// Cityscapes' instanceIds: the label, or for people and vehicles 1000 times the label and a
 /// number from 0 within the image.
 std::string instance_ids_png(const Classes& classes, std::span<const std::uint32_t> ids) {
   constexpr std::uint32_t kPerClass = 1000;
@@ -67,8 +67,7 @@ std::string instance_ids_png(const Classes& classes, std::span<const std::uint32
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const SemanticClass value = classes.pixels[i];
     const std::uint8_t label = cityscapes_class(value).id;
-    const bool is_counted = value == SemanticClass::person || value == SemanticClass::car ||
-                            value == SemanticClass::train;
+    const bool is_counted = value == SemanticClass::person || world::is_vehicle(value);
     if (!is_counted) {
       samples.push_back(label);
       continue;

@@ -1,6 +1,6 @@
 // UAVDT (benchmark of detection and tracking): texts of a sequence, classes of occlusion and of
-// what is out of view. Its categories are vehicles: cars are its first; people get the number after
-// its last. Trains and drones have none.
+// what is out of view. Its categories are vehicles: cars (and vans), trucks, buses; people get the
+// number after its last. Trains, motorcycles and drones have none.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -14,8 +14,22 @@ namespace throng::formats {
 
 namespace {
 
-constexpr int kUavdtCar = 1;
 constexpr int kUavdtPerson = 4;
+
+/// The category of a vehicle; 0: none.
+int uavdt_category(world::SemanticClass vehicle) {
+  switch (vehicle) {
+    case world::SemanticClass::car:
+    case world::SemanticClass::van:
+      return 1;
+    case world::SemanticClass::truck:
+      return 2;
+    case world::SemanticClass::bus:
+      return 3;
+    default:
+      return 0;
+  }
+}
 
 /// 1: nothing, and then 3: up to `small`, 2: more, as UAVDT numbers how much is out of view.
 int out_of_view_level(const Person& person) {
@@ -58,7 +72,8 @@ class UavdtExporter : public Exporter {
     };
     for (const Person& person : image.people) add(person, kUavdtPerson);
     for (const Person& object : image.objects) {
-      if (info_.surface_material(object) == world::SemanticClass::car) add(object, kUavdtCar);
+      const int category = uavdt_category(info_.surface_material(object));
+      if (category > 0) add(object, category);
     }
     bool is_new = false;
     const std::string place = fmt::format("{}/GT/{}", split, sequence);

@@ -20,6 +20,10 @@ enum class Category : std::uint8_t {
   pedestrian = 1,
   people = 2,
   car = 4,
+  van = 5,
+  truck = 6,
+  bus = 9,
+  motor = 10,
   others = 11
 };
 
@@ -36,7 +40,20 @@ std::optional<Category> category_of_object(const DatasetInfo& info, const Person
   const world::SemanticClass surface = info.surface_material(object);
   if (surface == world::SemanticClass::drone) return std::nullopt;
   if (object.is_ignored) return Category::ignored;
-  return surface == world::SemanticClass::car ? Category::car : Category::others;
+  switch (surface) {
+    case world::SemanticClass::car:
+      return Category::car;
+    case world::SemanticClass::van:
+      return Category::van;
+    case world::SemanticClass::truck:
+      return Category::truck;
+    case world::SemanticClass::bus:
+      return Category::bus;
+    case world::SemanticClass::motorcycle:
+      return Category::motor;
+    default:
+      return Category::others;
+  }
 }
 
 /// 0 none, 1 up to a half, 2 more; what rounds to nothing is none.

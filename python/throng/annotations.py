@@ -21,8 +21,9 @@ FloatArray = NDArray[np.float64]
 _Item = TypeVar("_Item", int, str)
 PERSON, DRONE = 1, 2
 #: Category ids of vehicles, which datasets have whose job asks for the annotation "vehicles".
-CAR, TRAIN = 3, 4
-NAMES = {PERSON: "person", DRONE: "drone", CAR: "car", TRAIN: "train"}
+CAR, TRAIN, VAN, TRUCK, BUS, MOTORCYCLE = 3, 4, 5, 6, 7, 8
+VEHICLES = {CAR: "car", TRAIN: "train", VAN: "van", TRUCK: "truck", BUS: "bus", MOTORCYCLE: "motorcycle"}
+NAMES = {PERSON: "person", DRONE: "drone", **VEHICLES}
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
     @property
     def vehicles(self) -> Annotations:
         """Cars and trains, of jobs with "vehicles" in outputs.annotations."""
-        return self.select([record.get("category_id") in (CAR, TRAIN) for record in self.records])
+        return self.select([record.get("category_id") in VEHICLES for record in self.records])
 
     def _column(
         self, key: str, shape: tuple[int, ...], dtype: Any = np.float64, *, required: str = "", cut: int | None = None

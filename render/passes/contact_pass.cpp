@@ -19,14 +19,9 @@ constexpr double kPersonReachM = 0.5;
 constexpr double kShadowReachM = 14;  // farther lamps cast no visible shadow
 constexpr double kTypicalStatureM = 1.7;
 
-/// A prop's part that touches the ground or nearly does: what it hides the sky from.
-double contact_reach_m(world::PropKind kind) { return kind == world::PropKind::car ? 0.7 : 0.35; }
-
-/// Whether a prop's foot is a disc rather than a rectangle.
-bool is_round(world::PropKind kind) {
-  using world::PropKind;
-  return kind == PropKind::fountain || kind == PropKind::tree || kind == PropKind::lamp_post ||
-         kind == PropKind::bin || kind == PropKind::bollard || kind == PropKind::bush;
+/// How far around a prop its underside, which is near the ground, hides the sky (m).
+double contact_reach_m(const world::PropType& type) {
+  return world::is_vehicle(type.semantic_class) && type.half_size.y() > 0.5 ? 0.7 : 0.35;
 }
 
 }  // namespace
@@ -48,13 +43,12 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
       program_(make_program({embedded::shader_view, embedded::shader_contact_vert},
                             {embedded::shader_light, embedded::shader_contact_frag})) {
   for (const world::Prop& prop : scenario.props) {
-    const Vector2d half =
-        prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
+    const world::PropType& type = world::prop_type(prop.kind);
     // Roofs on posts have none: the light that they take is baked.
-    if (prop.kind == world::PropKind::tent || prop.kind == world::PropKind::stall) continue;
-    still_.push_back(
-        rim(prop.position, 0.9 * half, prop.yaw_rad, contact_reach_m(prop.kind), 0.7 * strength_));
-    if (is_round(prop.kind)) still_.back().rounding_m = still_.back().footprint[2];
+    if (type.foot == world::Foot::posts) continue;
+    still_.push_back(rim(prop.position, 0.9 * prop.scale * type.half_size, prop.yaw_rad,
+                         contact_reach_m(type), 0.7 * strength_));
+    if (type.foot == world::Foot::disc) still_.back().rounding_m = still_.back().footprint[2];
   }
   if (light.lamps_on) lamps_ = all_lamps(scenario);
   describe_vertices(array_, 0, instances_, sizeof(Rim), 1,

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "base/compute/random.h"
 #include "render/props/leaf_sprites.h"
@@ -25,8 +26,19 @@ class PropBuilder {
   PropBuilder(const world::Prop& prop, std::uint32_t id)
       : prop_(prop), id_(id), random_(prop.look, Stream::environment) {}
 
-  PropMesh take() { return std::move(mesh_); }
+  /// The mesh, with what is only drawn near at its end.
+  PropMesh take() {
+    mesh_.far_indices = mesh_.indices.size();
+    mesh_.indices.insert(mesh_.indices.end(), near_indices_.begin(), near_indices_.end());
+    return std::move(mesh_);
+  }
   Random& random() { return random_; }
+
+  /// Where and how the surfaces that are added from now on stand in the prop's frame; it may mirror
+  /// them.
+  Eigen::Affine3d placing = Eigen::Affine3d::Identity();
+  /// Whether they are details that are only drawn near.
+  bool is_near = false;
 
   void quad(const std::array<Eigen::Vector3d, 4>& corners, const Eigen::Vector3d& paint,
             Finish finish) {
@@ -41,16 +53,20 @@ class PropBuilder {
     constexpr std::array<std::array<float, 2>, 4> kCard = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      mesh_.vertices.push_back({three(prop_.scale * turned(corners[i]) +
+      const Eigen::Vector3d normal = placing.linear() * normals[i];
+      mesh_.vertices.push_back({three(prop_.scale * turned(placing * corners[i]) +
                                       Eigen::Vector3d(prop_.position.x(), prop_.position.y(), 0)),
-                                three(turned(normals[i])),
+                                three(turned(normal.normalized())),
                                 kCard[i],
                                 painted(paint, finish),
                                 id_,
                                 {}});
     }
-    mesh_.indices.insert(mesh_.indices.end(),
-                         {first, first + 1, first + 2, first, first + 2, first + 3});
+    std::array<std::uint32_t, 6> order = {0, 1, 2, 0, 2, 3};
+    // What is mirrored keeps its outside.
+    if (placing.linear().determinant() < 0) std::reverse(order.begin(), order.end());
+    std::vector<std::uint32_t>& indices = is_near ? near_indices_ : mesh_.indices;
+    for (const std::uint32_t corner : order) indices.push_back(first + corner);
   }
 
   /// Adds a card with a sprite of leaves, lit as a surface with this normal.
@@ -82,8 +98,7 @@ class PropBuilder {
     }
   }
 
-  /// Adds a block between two horizontal rectangles; without its lower side if that is on the
-  /// ground.
+  /// Adds a block between two horizontal rectangles, without a side that lies on the ground.
   void block(const Eigen::AlignedBox2d& below, double z0, const Eigen::AlignedBox2d& above,
              double z1, const Eigen::Vector3d& paint, Finish finish = Finish::matt) {
     const auto at = [](const Eigen::AlignedBox2d& box, int corner, double z) {
@@ -96,7 +111,9 @@ class PropBuilder {
            paint, finish);
     }
     quad({at(above, 0, z1), at(above, 1, z1), at(above, 2, z1), at(above, 3, z1)}, paint, finish);
-    if (z0 > 0) {
+    const bool is_on_ground =
+        (placing * at(below, 0, z0)).z() <= 0 && (placing * at(below, 2, z0)).z() <= 0;
+    if (!is_on_ground) {
       quad({at(below, 3, z0), at(below, 2, z0), at(below, 1, z0), at(below, 0, z0)}, paint, finish);
     }
   }
@@ -150,6 +167,7 @@ class PropBuilder {
   std::uint32_t id_;
   Random random_;
   PropMesh mesh_;
+  std::vector<std::uint32_t> near_indices_;
 };
 
 }  // namespace throng::render

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace throng::render {
@@ -34,6 +36,8 @@ struct PropVertex {
 struct PropMesh {
   std::vector<PropVertex> vertices;
   std::vector<std::uint32_t> indices;
+  /// The first of `indices` that are drawn at any distance; those after them are details.
+  std::size_t far_indices = std::numeric_limits<std::size_t>::max();
 };
 
 }  // namespace throng::render

@@ -1,4 +1,5 @@
-// Procedural shapes of props with few triangles, designed for distances of 15 to 60 m.
+// Shapes of props with few triangles, designed for distances of 10 to 60 m: trees and plants grow,
+// the other kinds are files (render/props/shape_file.h).
 #pragma once
 
 #include <array>
@@ -12,8 +13,5 @@ namespace throng::render {
 
 /// The mesh of a prop at its pose in the world, with `id` for the id buffer.
 PropMesh prop_shape(const world::Prop& prop, std::uint32_t id);
-
-/// Height (m) of a lamp post's light at scale 1.
-inline constexpr double kLampPostM = 4.6;
 
 }  // namespace throng::render

@@ -11,10 +11,6 @@ namespace throng::render {
 
 namespace {
 
-bool is_vehicle(world::SemanticClass value) {
-  return value == world::SemanticClass::car || value == world::SemanticClass::train;
-}
-
 /// The middle of the foot of the upright box around a mesh, turned as it heads.
 Eigen::Vector3d foot_offset(const PropMesh& mesh, double yaw_rad) {
   const Eigen::AngleAxisd turn(yaw_rad, Eigen::Vector3d::UnitZ());
@@ -30,12 +26,13 @@ Eigen::Vector3d foot_offset(const PropMesh& mesh, double yaw_rad) {
 }  // namespace
 
 std::size_t vehicle_count(const world::Scenario& scenario) {
-  const auto props = std::count_if(
-      scenario.props.begin(), scenario.props.end(),
-      [](const world::Prop& prop) { return is_vehicle(world::semantic_class(prop.kind)); });
-  const auto meshes =
-      std::count_if(scenario.meshes.begin(), scenario.meshes.end(),
-                    [](const world::PlacedMesh& mesh) { return is_vehicle(mesh.semantic_class); });
+  const auto props =
+      std::count_if(scenario.props.begin(), scenario.props.end(), [](const world::Prop& prop) {
+        return world::is_vehicle(world::prop_type(prop.kind).semantic_class);
+      });
+  const auto meshes = std::count_if(
+      scenario.meshes.begin(), scenario.meshes.end(),
+      [](const world::PlacedMesh& mesh) { return world::is_vehicle(mesh.semantic_class); });
   return static_cast<std::size_t>(props + meshes);
 }
 
@@ -43,15 +40,15 @@ std::vector<Vehicle> list_vehicles(const world::Scenario& scenario) {
   std::vector<Vehicle> vehicles;
   std::uint32_t id = kIdProp;
   for (const world::Prop& prop : scenario.props) {
-    const world::SemanticClass surface = world::semantic_class(prop.kind);
-    if (is_vehicle(surface)) {
+    const world::SemanticClass surface = world::prop_type(prop.kind).semantic_class;
+    if (world::is_vehicle(surface)) {
       vehicles.push_back({id, surface, Eigen::Vector3d(prop.position.x(), prop.position.y(), 0),
                           prop.yaw_rad, prop_shape(prop, id)});
     }
     ++id;
   }
   for (const world::PlacedMesh& mesh : scenario.meshes) {
-    if (is_vehicle(mesh.semantic_class)) {
+    if (world::is_vehicle(mesh.semantic_class)) {
       PropMesh shape = mesh_from_file(mesh, id);
       const Eigen::Vector3d foot = foot_offset(shape, mesh.yaw_rad);
       vehicles.push_back({id, mesh.semantic_class, foot, mesh.yaw_rad, std::move(shape)});

@@ -1,4 +1,4 @@
-// The vehicles of a scenario: parked cars and trains.
+// The vehicles of a scenario: parked motor vehicles and trains.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ struct Vehicle {
 /// The size of list_vehicles() without reading meshes.
 std::size_t vehicle_count(const world::Scenario& scenario);
 
-/// The props and meshes whose class is car or train, by id. Throws InputError for a mesh file that
+/// The props and meshes that are vehicles, by id. Throws InputError for a mesh file that
 /// cannot be read.
 std::vector<Vehicle> list_vehicles(const world::Scenario& scenario);
 

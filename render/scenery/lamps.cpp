@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/props/prop_shapes.h"
+#include "render/props/shape_file.h"
 
 namespace throng::render {
 
@@ -16,27 +16,11 @@ constexpr double kMinWallM = 4;
 // About 1000 candela over 54 000 lux: 57 lux on the ground below a lamp 4.2 m up.
 constexpr double kStrengthM2 = 1000.0 / 54'000;
 
-/// Adds the lamps of a prop, where its shape has them (render/props).
 void add_prop_lamps(const world::Prop& prop, std::vector<Lamp>& lamps) {
-  const auto add = [&](double x, double y, double z, double strength) {
+  for (const ShapeLamp& lamp : shape_lamps(world::prop_type(prop.kind).name)) {
     const Eigen::Vector2d at =
-        prop.position + prop.scale * (Eigen::Rotation2Dd(prop.yaw_rad) * Eigen::Vector2d(x, y));
-    lamps.push_back({{at.x(), at.y(), prop.scale * z}, {0, 0}, strength});
-  };
-  switch (prop.kind) {
-    case world::PropKind::lamp_post:
-      return add(0, 0, kLampPostM, 1);
-    case world::PropKind::stall:
-      return add(0, -0.3, 2, 0.15);
-    case world::PropKind::kiosk:
-      return add(0, -1.3, 2.2, 0.15);
-    case world::PropKind::tent:
-      return add(0, 0, 2.6, 0.4);
-    case world::PropKind::stage:
-      for (const double x : {-6.0, -3.0, 0.0, 3.0, 6.0}) add(x, -4, 7, 6);
-      return;
-    default:
-      return;
+        prop.position + prop.scale * (Eigen::Rotation2Dd(prop.yaw_rad) * lamp.position.head<2>());
+    lamps.push_back({{at.x(), at.y(), prop.scale * lamp.position.z()}, {0, 0}, lamp.strength});
   }
 }
 

@@ -59,7 +59,7 @@ std::vector<PlacedProp> place_props(const world::Scenario& scenario, bool semant
     return semantic ? id_with_class(id, value) : id;
   };
   for (const world::Prop& prop : scenario.props) {
-    props.push_back({.mesh = prop_shape(prop, id_of(world::semantic_class(prop.kind)))});
+    props.push_back({.mesh = prop_shape(prop, id_of(world::prop_type(prop.kind).semantic_class))});
     ++id;
   }
   for (const world::PlacedMesh& mesh : scenario.meshes) {

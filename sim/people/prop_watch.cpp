@@ -23,7 +23,7 @@ PropWatch::PropWatch(const world::Scenario& scenario) : scenario_(&scenario) {
   for (std::size_t i = 0; i < scenario.props.size(); ++i) {
     const world::Prop& prop = scenario.props[i];
     const double reach_m =
-        prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size.norm();
+        prop.scale * world::prop_type(prop.kind).half_size.norm();
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m);
     const Cell low = cell_of(prop.position - reach);
     const Cell high = cell_of(prop.position + reach);
@@ -64,7 +64,7 @@ void PropWatch::record(std::size_t number, std::size_t agent, const Eigen::Vecto
   problems_.push_back(
       {scenario_->id, placed ? fmt::format("/props/{}/position", number) : std::string("/scatter"),
        fmt::format("a {} at ({:.2f}, {:.2f}), in which {} is at ({:.2f}, {:.2f}) after {:.1f} s",
-                   world::prop_types().at(static_cast<std::size_t>(prop.kind)).name,
+                   world::prop_type(prop.kind).name,
                    prop.position.x(), prop.position.y(),
                    is_built ? "a person" : fmt::format("agent {}", agent), at.x(), at.y(), time_s),
        !placed    ? "areas in which nobody walks"

@@ -94,7 +94,7 @@ TEST(Plants, StayOnTheGroundThatTheirKindCovers) {
       prop.look = look;
       const PropMesh mesh = prop_shape(prop, kIdProp);
       const Eigen::AlignedBox3d box = find_bounds({mesh});
-      const Vector2d half = world::prop_types().at(static_cast<std::size_t>(kind)).half_size;
+      const Vector2d half = world::prop_type(kind).half_size;
       EXPECT_LE(box.max().x(), half.x() + 0.3) << look;
       EXPECT_LE(box.max().y(), half.y() + 0.3) << look;
       EXPECT_GE(box.min().z(), 0) << look;

@@ -87,7 +87,7 @@ std::optional<SemanticClass> expected_class(const Frame& frame, int x, int y) {
   if (id == kIdNothing) return SemanticClass::sky;
   if (is_agent(id)) return SemanticClass::person;
   if (id >= kIdProp && id < kIdDrone) {
-    return world::semantic_class(static_cast<world::PropKind>(id - kIdProp));
+    return world::prop_type(static_cast<world::PropKind>(id - kIdProp)).semantic_class;
   }
   const Eigen::Vector3d point = frame.camera.unproject({x, y}, frame.depth_m[pixel]);
   if (id == kIdGround) return ground_class_at(point.head<2>());

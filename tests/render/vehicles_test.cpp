@@ -68,7 +68,7 @@ void expect_masks(const std::vector<world::Prop>& props, const camera::Camera& c
   for (const ObjectInView& object : frame.objects) {
     SCOPED_TRACE(object.id);
     const world::Prop& what = props.at(object.id - kIdProp);
-    EXPECT_EQ(object.surface, world::semantic_class(what.kind));
+    EXPECT_EQ(object.surface, world::prop_type(what.kind).semantic_class);
     View single({what});
     const Frame alone = single.draw(camera);
     std::uint64_t whole = 0;

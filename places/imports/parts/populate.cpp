@@ -128,7 +128,7 @@ void take_props_away(ImportedScenario& scenario, const std::vector<Gate>& gates)
     scenario.skipped.push_back(
         {"", 0,
          fmt::format("{} at [{:.1f}, {:.1f}]",
-                     world::prop_types().at(static_cast<std::size_t>(prop.kind)).name,
+                     world::prop_type(prop.kind).name,
                      prop.position.x(), prop.position.y()),
          "stands in a building or before an exit"});
     return true;

@@ -73,7 +73,7 @@ json buildings_json(const ImportedScenario& scenario) {
 json props_json(const ImportedScenario& scenario) {
   json props = json::array();
   for (const world::Prop& prop : scenario.props) {
-    props.push_back({{"kind", world::prop_types().at(static_cast<std::size_t>(prop.kind)).name},
+    props.push_back({{"kind", world::prop_type(prop.kind).name},
                      {"position", point(prop.position)},
                      {"yaw_deg", rounded(prop.yaw_rad / kDegree)},
                      {"scale", rounded(prop.scale)},

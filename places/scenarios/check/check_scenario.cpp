@@ -156,7 +156,7 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
         in_props.add(
             agent, at,
             fmt::format("in the {} at {}",
-                        world::prop_types()[static_cast<std::size_t>(scenario.props[i].kind)].name,
+                        world::prop_type(scenario.props[i].kind).name,
                         point_text(scenario.props[i].position)));
       }
     }

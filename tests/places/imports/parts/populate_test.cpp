@@ -191,7 +191,7 @@ TEST(Footprints, TurnAndGrowWithTheirProps) {
   world::Prop bench;
   bench.kind = world::PropKind::bench;
   bench.position = {10, 20};
-  const Vector2d half = world::prop_types().at(static_cast<std::size_t>(bench.kind)).half_size;
+  const Vector2d half = world::prop_type(bench.kind).half_size;
   const geometry::Rectangle straight = geometry::bounding_box(world::prop_footprint(bench));
   EXPECT_LT((straight.max - bench.position - half).norm(), 1e-12);
   bench.yaw_rad = std::numbers::pi / 2;

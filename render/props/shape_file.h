@@ -1,0 +1,40 @@
+// Shapes of props as data: shapes/NAME.json, embedded. A file has "parts" and the "paints" that
+// they name, chosen once per prop; paints.json has those of all. A part is one surface:
+//
+//   box [x0, y0, z0, x1, y1, z1]              block [x0, y0, x1, y1, z0, x0, y0, x1, y1, z1]
+//   tube [x, y, z, radius, x, y, z, radius]   lathe [[z, radius], ...] upwards around the z axis
+//   quad [[x, y, z], ...] of four corners     loft [[x, half_y, z, half_y, z], ...] of sections,
+//   foliage {middle, radii, sprite, ...}           below and above, backwards along x
+//   shape NAME, with paints of its own        parts [...]      one_of [[...], ...] lists of parts
+//
+// and how it is placed: "scale", then "tilt_deg" (about y), "turn_deg" (about z) and "at"; "mirror"
+// adds the same across "x", "y" or both; "repeat" {count, step, turn_deg} adds copies, each a step
+// or a turn about the origin further, or is a list of repeats. "chance" decides for each copy.
+// "paint" is a name or a list to choose from for each copy, "shade" and "vary" multiply it, "near"
+// marks details. "two_sided" quads are cloths; "sides" are those of round surfaces.
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <vector>
+
+#include "render/props/prop_builder.h"
+
+namespace throng::render {
+
+/// A lamp of a shape, in the prop's frame (m), and its strength relative to a lamp post's.
+struct ShapeLamp {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double strength = 1;
+};
+
+/// Names of all files, sorted: kinds of props, and what several of them use.
+std::vector<std::string_view> shape_names();
+
+/// Adds the shape of a file.
+void add_shape(std::string_view name, PropBuilder& builder);
+
+/// The lamps of a file; none if there is no such file.
+std::vector<ShapeLamp> shape_lamps(std::string_view name);
+
+}  // namespace throng::render
