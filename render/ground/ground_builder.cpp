@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/geometry/polygon.h"
@@ -22,6 +23,17 @@ constexpr double kMinCellM = 3;
 
 Polygon cut(const Polygon& polygon, const Vector2d& normal, double limit) {
   return geometry::clipped(polygon, [&](const Vector2d& p) { return normal.dot(p) - limit; });
+}
+
+std::vector<GroundSegment> in_pieces(const GroundSegment& segment) {
+  constexpr double kPieceM = 2;
+  const double count = std::max(1.0, std::ceil(segment.length_m() / kPieceM));
+  const Vector2d step = (segment.to - segment.from) / count;
+  std::vector<GroundSegment> pieces;
+  for (double i = 0; i < count; ++i) {
+    pieces.push_back({segment.from + i * step, segment.from + (i + 1) * step});
+  }
+  return pieces;
 }
 
 void GroundBuilder::set_outline(std::span<const Vector2d> outline) {
@@ -65,7 +77,9 @@ void GroundBuilder::add_strip(const GroundSegment& segment, double near_m, doubl
   set_axes(segment);
   const Vector2d near = near_m * segment.left();
   const Vector2d far = far_m * segment.left();
-  add({segment.from + near, segment.to + near, segment.to + far, segment.from + far}, height_m);
+  for (const auto& [from, to] : in_pieces(segment)) {
+    add({from + near, to + near, to + far, from + far}, height_m);
+  }
 }
 
 void GroundBuilder::add_side(const GroundSegment& segment, double height_m) {

@@ -39,7 +39,8 @@ class GroundBuilder {
   /// The same cut along a grid, so that vertices know how far they are from the outline.
   void add_in_cells(const std::vector<Eigen::Vector2d>& polygon, double height_m);
 
-  /// The strip to the left of a segment between two distances from it, with axes along it.
+  /// The strip to the left of a segment between two distances from it, with axes along it, in
+  /// pieces: those of long thin triangles would be many once light is added (light/refine.h).
   void add_strip(const GroundSegment& segment, double near_m, double far_m, double height_m);
 
   /// The upright side of a stone on the ground, which shows to the right of the segment.
@@ -54,6 +55,9 @@ class GroundBuilder {
   std::span<const Eigen::Vector2d> outline_;
   GroundSegment axes_ = {Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX()};
 };
+
+/// Parts of a segment that are at most a few meters long, one after the other.
+std::vector<GroundSegment> in_pieces(const GroundSegment& segment);
 
 /// The part of a convex polygon on the side of a line where normal . p <= limit.
 std::vector<Eigen::Vector2d> cut(const std::vector<Eigen::Vector2d>& polygon,

@@ -35,13 +35,15 @@ class Mosaic {
   void add(const GroundSegment& segment, double width_m, double height_m) {
     const Vector2d far = width_m * segment.left();
     builder_.set_axes(segment);
-    for (const Polygon& part : parts_) {
-      Polygon piece = {segment.from, segment.to, segment.to + far, segment.from + far};
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        const GroundSegment side = {part[i], part[(i + 1) % part.size()]};
-        piece = cut(piece, -side.left(), -side.left().dot(side.from));
+    for (const auto& [from, to] : in_pieces(segment)) {
+      for (const Polygon& part : parts_) {
+        Polygon piece = {from, to, to + far, from + far};
+        for (std::size_t i = 0; i < part.size(); ++i) {
+          const GroundSegment side = {part[i], part[(i + 1) % part.size()]};
+          piece = cut(piece, -side.left(), -side.left().dot(side.from));
+        }
+        builder_.add(piece, height_m);
       }
-      builder_.add(piece, height_m);
     }
   }
 

@@ -68,6 +68,10 @@ std::vector<Polygon> winding_track(const Vector2d& first, const Vector2d& second
 
 }  // namespace
 
+bool is_strip(std::string_view material) {
+  return material == "kerb" || material == "setts" || material == "gutter" || material == "tactile";
+}
+
 std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t area) {
   constexpr double kSlackM = 0.05;
   constexpr double kReachM = 1500;

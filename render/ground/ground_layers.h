@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/ground/scenery_mesh.h"
@@ -17,6 +18,9 @@ struct GroundLayer {
   std::string material;
   Range range;
 };
+
+/// Whether a material is laid in narrow strips, along which its pattern runs.
+bool is_strip(std::string_view material);
 
 /// The parts of a scenario's streets and paths that go on beyond the edge of its ground, of the
 /// area with this index: convex polygons, counter-clockwise (m).

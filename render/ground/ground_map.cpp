@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-Eigen::AlignedBox2d bounds_of(const std::vector<Vector2d>& corners) {
+Eigen::AlignedBox2d polygon_bounds(const std::vector<Vector2d>& corners) {
   Eigen::AlignedBox2d bounds;
   for (const Vector2d& corner : corners) bounds.extend(corner);
   return bounds;
@@ -21,9 +21,9 @@ Eigen::AlignedBox2d bounds_of(const std::vector<Vector2d>& corners) {
 }  // namespace
 
 GroundMap::GroundMap(const world::Scenario& scenario) : scenario_(scenario) {
-  for (const world::GroundArea& area : scenario.areas) areas_.push_back(bounds_of(area.corners));
+  for (const world::GroundArea& area : scenario.areas) areas_.push_back(polygon_bounds(area.corners));
   for (const world::Building& building : scenario.buildings) {
-    buildings_.push_back(bounds_of(building.footprint));
+    buildings_.push_back(polygon_bounds(building.footprint));
   }
 }
 

@@ -18,16 +18,16 @@ bool is_lawn(const GroundMap& map, const Vector2d& point) {
   return map.material_at(point) == "grass" && map.wall_m(point) > 0.4;
 }
 
-/// Distance (m) from a point of a lawn to its end, if that is at a way; else 0.
-double way_m(const GroundMap& map, const Vector2d& from, const Vector2d& direction) {
+/// Distance (m) from a point of a lawn to its end, if that is at a path or road; else 0.
+double lawn_m(const GroundMap& map, const Vector2d& from, const Vector2d& direction) {
   constexpr double kMaxM = 7;
   constexpr double kStepM = 0.25;
   double off_m = 0;
   while (off_m < kMaxM && is_lawn(map, from + off_m * direction)) off_m += kStepM;
   const Vector2d end = from + off_m * direction;
   const std::string_view material = map.material_at(end);
-  const bool is_way = is_paved(material) || material == "dirt" || material == "asphalt";
-  return is_way && map.wall_m(end) > 0.4 ? off_m : 0;
+  const bool is_end = is_paved(material) || material == "dirt" || material == "asphalt";
+  return is_end && map.wall_m(end) > 0.4 ? off_m : 0;
 }
 
 }  // namespace
@@ -46,13 +46,13 @@ std::vector<GroundDecal> worn_paths(const world::Scenario& scenario, const Groun
       const double lean = random.below(2) == 0 ? 1 : -1;
       const Vector2d along(half_root, lean * half_root);
       if (!is_lawn(map, point)) continue;
-      const double ahead_m = way_m(map, point, along);
-      const double behind_m = ahead_m > 0 ? way_m(map, point, -along) : 0;
+      const double ahead_m = lawn_m(map, point, along);
+      const double behind_m = ahead_m > 0 ? lawn_m(map, point, -along) : 0;
       const double half_m = 0.5 * (ahead_m + behind_m);
       if (behind_m == 0 || half_m < kMinHalfM) continue;
       const Vector2d from = point - behind_m * along;
       const Vector2d to = point + ahead_m * along;
-      // One of the corners beside a path that is worth it belongs to the ways around the lawn.
+      // One of the corners beside a path that is worth it belongs to the paths around the lawn.
       const bool is_corner = !is_lawn(map, {from.x(), to.y()}) != !is_lawn(map, {to.x(), from.y()});
       const Vector2d middle = 0.5 * (from + to);
       bool is_apart = is_corner;

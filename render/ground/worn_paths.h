@@ -9,7 +9,7 @@
 
 namespace throng::render {
 
-/// Diagonals over the corners of lawns between paved ways that meet.
+/// Diagonals over the corners of lawns between paths that meet.
 std::vector<GroundDecal> worn_paths(const world::Scenario& scenario, const GroundMap& map);
 
 }  // namespace throng::render

@@ -17,7 +17,7 @@ using Eigen::Vector3f;
 
 /// Drawing a triangle costs a software renderer some 0.1 us: these are a few milliseconds of a
 /// frame.
-constexpr std::size_t kMaxSceneryTriangles = 30'000;
+constexpr std::size_t kMaxSceneryTriangles = 36'000;
 constexpr std::size_t kMaxPropTriangles = 20'000;
 
 /// Replaces the triangles of `range` in a new list of indices.
@@ -34,13 +34,20 @@ void cut_scenery(const NearMap& near, const Eigen::AlignedBox2d& ground, float s
                  SceneryMesh& mesh, std::vector<GroundLayer>& layers) {
   const Eigen::AlignedBox2f bounds = ground.cast<float>();
   // Light on the ground varies near what stands on it.
-  const auto on_ground = [&](const SceneryVertex& a, const SceneryVertex& b) {
+  const auto is_long = [&](const SceneryVertex& a, const SceneryVertex& b, float coarse) {
     const Vector3f edge = vertex_position(b) - vertex_position(a);
     const Vector3f middle = vertex_position(a) + 0.5F * edge;
     if (bounds.exteriorDistance(Eigen::Vector2f(middle.head<2>())) > 0) return false;
     const float wanted =
         std::clamp(0.8F + 0.45F * near.distance_m(middle.x(), middle.y()), 0.8F, 6.0F);
-    return edge.norm() > scale * wanted;
+    return edge.norm() > coarse * scale * wanted;
+  };
+  const auto on_ground = [&](const SceneryVertex& a, const SceneryVertex& b) {
+    return is_long(a, b, 1);
+  };
+  // Strips come in short pieces, and are so narrow that little light varies across them.
+  const auto on_strip = [&](const SceneryVertex& a, const SceneryVertex& b) {
+    return is_long(a, b, 2);
   };
   // On walls, from their foot upwards, more than along them.
   const auto on_wall = [&](const SceneryVertex& a, const SceneryVertex& b) {
@@ -61,7 +68,13 @@ void cut_scenery(const NearMap& near, const Eigen::AlignedBox2d& ground, float s
     cut_range(indices, *whole, mesh, out,
               [](const SceneryVertex&, const SceneryVertex&) { return false; });
   }
-  for (GroundLayer& layer : layers) cut_range(indices, layer.range, mesh, out, on_ground);
+  for (GroundLayer& layer : layers) {
+    if (is_strip(layer.material)) {
+      cut_range(indices, layer.range, mesh, out, on_strip);
+    } else {
+      cut_range(indices, layer.range, mesh, out, on_ground);
+    }
+  }
   mesh.indices = std::move(out);
 }
 
@@ -95,7 +108,7 @@ void cut_meshes(const Eigen::AlignedBox2d& ground, double scale, PlaceMeshes& me
   const SceneryMesh scenery = meshes.scenery;
   const std::vector<GroundLayer> layers = meshes.layers;
   const std::size_t max_triangles =
-      std::max(kMaxSceneryTriangles, scenery.indices.size() / 3 * 5 / 4);
+      std::max(kMaxSceneryTriangles, scenery.indices.size() / 3 * 5 / 4) + scenery.decals.count / 3;
   for (auto side = static_cast<float>(scale);; side *= kCoarser) {
     cut_scenery(near, ground, side, meshes.scenery, meshes.layers);
     if (meshes.scenery.indices.size() / 3 <= max_triangles) break;

@@ -99,8 +99,18 @@ std::vector<std::uint32_t> list_points(const SceneryMesh& mesh, const Eigen::Ali
   constexpr double kNearM = 30;
   std::vector<std::uint32_t> used;
   used.reserve(mesh.vertices.size());
-  for (const SceneryVertex& vertex : mesh.vertices) {
-    const Vector3f at = vertex_position(vertex);
+  const std::size_t first_decal =
+      mesh.decals.count > 0 ? mesh.indices[mesh.decals.first] : mesh.vertices.size();
+  const std::size_t decals = mesh.decals.count / 6;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const SceneryVertex& vertex = mesh.vertices[i];
+    Vector3f at = vertex_position(vertex);
+    if (i >= first_decal && i < first_decal + 4 * decals) {
+      // A decal's corners share the light of its middle.
+      const std::size_t corner = first_decal + (i - first_decal) / 4 * 4;
+      at = 0.5F *
+           (vertex_position(mesh.vertices[corner]) + vertex_position(mesh.vertices[corner + 2]));
+    }
     const bool far = ground.exteriorDistance(Eigen::Vector2d(at.head<2>().cast<double>())) > kNearM;
     used.push_back(far ? kInTheOpen : points.add({at, vertex_normal(vertex), paths, false}));
   }

@@ -66,11 +66,6 @@ constexpr std::string_view kGrass =
 constexpr std::string_view kDirt = "#define EDGE_ALBEDO vec3(0.115, 0.155, 0.052)\n";
 constexpr std::string_view kPlain = "surroundings";
 
-/// Whether a ground's pattern follows the strips that it is laid in.
-bool is_strip(std::string_view material) {
-  return material == "kerb" || material == "setts" || material == "gutter" || material == "tactile";
-}
-
 /// Whether a ground's pattern is looked up rather than worked out for each pixel: those that are
 /// small or follow no tile are not.
 bool is_baked(std::string_view material) {

@@ -69,17 +69,14 @@ vec3 ground_albedo(vec2 p, vec2 width) {
 flat in float facade_kind;
 float opacity = 1.0;
 
+// A software renderer works out both sides of an `if` for all pixels, but no loop that none enters.
+#define ONLY_WHERE(condition) for (int once = (condition) ? 0 : 1; once < 1; ++once)
+
 vec3 ground_albedo(vec2 p, vec2 width);
 #endif
 
-void main() {
-#if defined(STRIP) || defined(DECAL)
-  vec2 p = local.zw;
-#else
-  vec2 p = world.xy;
-#endif
-  // Worn and dirty ground is not only darker, but browner.
-  vec3 albedo = ground_albedo(p, fwidth(p)) * (1.0 + (local.x - 1.0) * vec3(0.88, 1.0, 1.2));
+// A surface of this albedo in its light, as the camera sees it.
+vec3 seen_color(vec3 albedo) {
 #ifdef FIRES
   float burned = charred(world, 0.7 * noise(world.xy * 0.9) + 0.3 * noise(world.xy * 3.7));
   albedo = charcoal(albedo, burned);
@@ -98,10 +95,22 @@ void main() {
 #ifdef WET
   radiance = wet(radiance, min(ambient.g / max(light.sky.g, 1e-6), 1.0));
 #endif
-#ifdef DECAL
-  color = vec4(film(through_air(radiance, world)), opacity);
+  return film(through_air(radiance, world));
+}
+
+void main() {
+#if defined(STRIP) || defined(DECAL)
+  vec2 p = local.zw;
 #else
-  color = vec4(film(through_air(radiance, world)), 1.0);
+  vec2 p = world.xy;
+#endif
+  // Worn and dirty ground is not only darker, but browner.
+  vec3 albedo = ground_albedo(p, fwidth(p)) * (1.0 + (local.x - 1.0) * vec3(0.88, 1.0, 1.2));
+#ifdef DECAL
+  color = vec4(0.0);
+  ONLY_WHERE(opacity > 0.004) color = vec4(seen_color(albedo), opacity);
+#else
+  color = vec4(seen_color(albedo), 1.0);
 #endif
   instance = id;
 }

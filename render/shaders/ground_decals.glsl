@@ -11,13 +11,13 @@ const int kTracks = 8;
 const int kSoil = 9;
 const int kWet = 10;
 const int kShade = 11;
-const int kLeaves = 12;  // and what follows: small things
+const int kLeaves = 12;  // and what follows: small objects
 
 const float kFarM = 120.0;
 
-// Small things, one in a share of the cells of a grid: the cells' size (m), their share, least and
+// Small objects, one in a share of the cells of a grid: the cells' size (m), their share, least and
 // most half length (m).
-const vec4 kThings[5] = vec4[](vec4(0.16, 0.50, 0.030, 0.072), vec4(0.42, 0.42, 0.015, 0.075),
+const vec4 kObjects[5] = vec4[](vec4(0.13, 0.50, 0.026, 0.058), vec4(0.42, 0.42, 0.015, 0.075),
                                vec4(0.17, 0.40, 0.010, 0.026), vec4(0.16, 0.50, 0.012, 0.026),
                                vec4(0.24, 0.75, 0.035, 0.11));
 const vec3 kHues[10] = vec3[](vec3(0.16, 0.095, 0.045), vec3(0.25, 0.18, 0.08),  // leaves
@@ -26,17 +26,17 @@ const vec3 kHues[10] = vec3[](vec3(0.16, 0.095, 0.045), vec3(0.25, 0.18, 0.08), 
                               vec3(0.62, 0.62, 0.56), vec3(0.55, 0.48, 0.08),   // daisies, dandelions
                               vec3(0.06, 0.09, 0.03), vec3(0.12, 0.15, 0.05));  // weeds
 
-// Sets the opacity of small things around the middle of a decal; returns their color.
-vec3 small_things(int kind, vec2 p, float dense, float w, ivec2 seed) {
-  vec4 thing = kThings[kind - kLeaves];
-  ivec2 cell = ivec2(floor(p / thing.x)) + seed;
+// Sets the opacity of small objects around the middle of a decal; returns their color.
+vec3 small_objects(int kind, vec2 p, float dense, float w, ivec2 seed) {
+  vec4 object = kObjects[kind - kLeaves];
+  ivec2 cell = ivec2(floor(p / object.x)) + seed;
   float size = hash(cell + 7);
-  float half_m = mix(thing.z, thing.w, size * size);
-  vec2 off = fract(p / thing.x) * thing.x - half_m - (thing.x - 2.0 * half_m) * vec2(hash(cell + 11), hash(cell + 13));
+  float half_m = mix(object.z, object.w, size * size);
+  vec2 off = fract(p / object.x) * object.x - half_m - (object.x - 2.0 * half_m) * vec2(hash(cell + 11), hash(cell + 13));
   float turn = 6.2832 * hash(cell + 17);
   off = mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * off;
   off.y *= 1.0 + 0.9 * hash(cell + 23);
-  float is_there = step(hash(cell + 19), thing.y * dense);
+  float is_there = step(hash(cell + 19), object.y * dense);
   opacity = is_there * clamp((half_m - length(off)) / w + 0.5, 0.0, 1.0) * min(2.0 * half_m / w, 1.0);
   float hue = hash(cell + 29);
   return mix(kHues[2 * (kind - kLeaves)], kHues[2 * (kind - kLeaves) + 1], hue) * (0.75 + 0.5 * size);
@@ -102,46 +102,42 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   vec2 at = abs(p) / half_size;
   float away = length(at);  // 1 on the rim of the ellipse in it
   vec3 albedo = vec3(0.02);
-  if (kind >= kLeaves) {
+  ONLY_WHERE(kind >= kLeaves) {
     float dense = clamp(1.15 - away * away, 0.0, 1.0) * smoothstep(0.2, 0.75, rough) * 1.5 * step(away, 1.0);
-    albedo = small_things(kind, p, dense, w, seed);
-  } else if (kind == kManhole) {
-    albedo = cover(p, width);
-  } else if (kind == kDrain) {
-    albedo = grating(p, half_size, width);
-  } else if (kind == kPatch) {
-    albedo = repair(p, half_size, w, pick, rough);
-  } else if (kind == kSlabs) {
+    albedo = small_objects(kind, p, dense, w, seed);
+  }
+  ONLY_WHERE(kind == kManhole) albedo = cover(p, width);
+  ONLY_WHERE(kind == kDrain) albedo = grating(p, half_size, width);
+  ONLY_WHERE(kind == kPatch) albedo = repair(p, half_size, w, pick, rough);
+  ONLY_WHERE(kind == kSlabs) {
     float rim = min(half_size.x - abs(p.x), half_size.y - abs(p.y));
     float seam = band(rim, -1.0, 0.03, w);
     opacity = (0.10 + 0.12 * pick + 0.25 * seam) * clamp(rim / w + 0.5, 0.0, 1.0);
     albedo = mix(pick < 0.6 ? vec3(0.13, 0.125, 0.12) : vec3(0.62, 0.58, 0.52), vec3(0.08), seam);
-  } else if (kind == kChalk) {
-    albedo = chalk(p, half_size, w, pick, rough);
-  } else if (kind == kSigns) {
-    albedo = sprayed(p, half_size, w, pick);
-  } else if (kind == kStain) {
+  }
+  ONLY_WHERE(kind == kChalk) albedo = chalk(p, half_size, w, pick, rough);
+  ONLY_WHERE(kind == kSigns) albedo = sprayed(p, half_size, w, pick);
+  ONLY_WHERE(kind == kStain) {
     opacity = (0.12 + 0.22 * pick) * smoothstep(1.0, 0.35, away + 0.9 * (rough - 0.4));
     albedo = vec3(0.05, 0.045, 0.04);
-  } else if (kind == kTires) {
+  }
+  ONLY_WHERE(kind == kTires) {
     float wheel = abs(abs(p.y) - max(half_size.y - 0.12, 0.0));
     opacity = 0.4 * smoothstep(0.12, 0.06, wheel) * smoothstep(1.0, 0.6, at.x) * smoothstep(0.2, 0.6, rough);
-  } else if (kind == kTracks) {
+  }
+  ONLY_WHERE(kind == kTracks) {
     float wheel = (abs(p.y) - 0.75) / 0.26;
     float oil = p.y / 0.22;
     float along = noise(world.xy * 0.12) + 0.5;
     opacity = along * (0.15 * exp(-wheel * wheel) + 0.09 * exp(-oil * oil)) * (0.7 + 0.6 * rough);
-  } else if (kind == kSoil) {
+  }
+  ONLY_WHERE(kind == kSoil) {
     float edge = max(at.y, max(at.x - 0.5, 0.0) * 2.0);
     opacity = 0.88 * smoothstep(1.0, 0.45, edge + 0.8 * (rough - 0.35));
     albedo = vec3(0.205, 0.165, 0.108) * (0.7 + 0.6 * noise(p * 16.0));
-  } else if (kind == kWet) {
-    opacity = 0.32 * smoothstep(1.0, 0.35, away + 0.7 * (rough - 0.4));
-  } else if (kind == kShade) {
-    float near = max(1.0 - at.y, 0.0);
-    opacity = 0.5 * near;
   }
+  ONLY_WHERE(kind == kWet) opacity = 0.32 * smoothstep(1.0, 0.35, away + 0.7 * (rough - 0.4));
+  ONLY_WHERE(kind == kShade) opacity = 0.5 * max(1.0 - at.y, 0.0);
   opacity *= smoothstep(kFarM, 0.75 * kFarM, length(light.eye.xyz - world));
-  if (opacity < 0.004) discard;
   return albedo;
 }

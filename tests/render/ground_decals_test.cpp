@@ -90,7 +90,7 @@ TEST(GroundDecals, RepairsLieOnOneMaterialAndBelowNoProp) {
   }
 }
 
-TEST(GroundDecals, AreFewInLargePlaces) {
+TEST(GroundDecals, AreFewOnLargeGround) {
   world::Scenario scenario = lively_place();
   scenario.ground = {{-400, -400}, {400, 400}};
   EXPECT_LE(ground_decals(scenario).size(), kMaxDecals);

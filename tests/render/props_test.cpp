@@ -208,8 +208,11 @@ TEST(Props, DarkenTheGroundAroundARoundFootEquallyOnAllSides) {
   light.sun_elevation_rad = 89.9 * kDegree;
   RenderOptions options;
   options.quality = Quality::standard;
-  Stage empty(ground_with({}), light, options);
-  Stage stage(ground_with({prop_at(PropKind::fountain, 0, 0)}), light, options);
+  world::Scenario scenario = ground_with({});
+  scenario.ground_material = "dirt";  // on which no wet patches show
+  Stage empty(scenario, light, options);
+  scenario.props = {prop_at(PropKind::fountain, 0, 0)};
+  Stage stage(scenario, light, options);
   const camera::Camera camera = camera_at({0, 0, 14}, 0, -90, 480, 480, 40);
   const Frame before = empty.draw(camera);
   const Frame after = stage.draw(camera);
