@@ -29,11 +29,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using nlohmann::json;
 
-struct Paint {
+struct ShapePaint {
   Vector3d albedo = Vector3d::Zero();
   Finish finish = Finish::matt;
 };
-using Paints = std::map<std::string, Paint>;
+using NamedPaints = std::map<std::string, ShapePaint>;
 
 const json& shape_files() {
   static const json files = json::parse(embedded::prop_shapes);
@@ -41,7 +41,8 @@ const json& shape_files() {
 }
 
 Vector3d point(const json& numbers, std::size_t first = 0) {
-  return {numbers.at(first), numbers.at(first + 1), numbers.at(first + 2)};
+  const auto at = [&](std::size_t i) { return numbers.at(first + i).get<double>(); };
+  return {at(0), at(1), at(2)};
 }
 
 Finish finish_named(const std::string& name) {
@@ -76,7 +77,7 @@ std::size_t choose(const json& choice, const json& options, Random& random) {
 }
 
 /// A paint of a file: [red, green, blue], or one of several that varies by a share.
-Paint choose_paint(const json& paint, Random& random) {
+ShapePaint choose_paint(const json& paint, Random& random) {
   if (paint.is_array()) return {point(paint), Finish::matt};
   const json& options = paint.at("one_of");
   const double vary = paint.value("vary", 0.0);
@@ -85,8 +86,8 @@ Paint choose_paint(const json& paint, Random& random) {
           finish_named(paint.value("finish", std::string("matt")))};
 }
 
-Paints choose_paints(const json& file, Random& random) {
-  Paints paints;
+NamedPaints choose_paints(const json& file, Random& random) {
+  NamedPaints paints;
   for (const json* list : {&shape_files().at("paints"), &file}) {
     const auto found = list->find("paints");
     if (found == list->end()) continue;
@@ -95,7 +96,7 @@ Paints choose_paints(const json& file, Random& random) {
   return paints;
 }
 
-void add_lathe(PropBuilder& builder, const json& profile, int sides, const Paint& paint) {
+void add_lathe(PropBuilder& builder, const json& profile, int sides, const ShapePaint& paint) {
   const auto ring = [](const json& at, double angle) {
     const double radius = at.at(1);
     return Vector3d(radius * std::cos(angle), radius * std::sin(angle), at.at(0));
@@ -117,7 +118,7 @@ void add_lathe(PropBuilder& builder, const json& profile, int sides, const Paint
   }
 }
 
-void add_loft(PropBuilder& builder, const json& sections, const Paint& paint) {
+void add_loft(PropBuilder& builder, const json& sections, const ShapePaint& paint) {
   using Section = std::array<Vector3d, 4>;
   const auto section = [](const json& s) {
     const double x = s.at(0);
@@ -208,10 +209,10 @@ class ShapeReader {
     builder_.placing = placing;
   }
 
-  Paint paint_of(const json& part) {
+  ShapePaint paint_of(const json& part) {
     const json& names = part.at("paint");
     Random& random = builder_.random();
-    Paint paint = paints_.at(
+    ShapePaint paint = paints_.at(
         (names.is_array() ? names.at(choose(part, names, random)) : names).get<std::string>());
     const double vary = part.value("vary", 0.0);
     paint.albedo *= part.value("shade", 1.0) * (vary > 0 ? random.uniform(1 - vary, 1 + vary) : 1);
@@ -219,7 +220,7 @@ class ShapeReader {
     return paint;
   }
 
-  void add_surface(const json& part, const Paint& paint) {
+  void add_surface(const json& part, const ShapePaint& paint) {
     const auto& [albedo, finish] = paint;
     const int sides = part.value("sides", 8);
     if (part.contains("box")) {
@@ -259,7 +260,7 @@ class ShapeReader {
   }
 
   PropBuilder& builder_;
-  Paints paints_;
+  NamedPaints paints_;
 };
 
 }  // namespace
