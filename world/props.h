@@ -85,18 +85,6 @@ enum class PropKind : std::uint8_t {
 };
 inline constexpr std::size_t kPropKinds = 68;
 
-/// Ground on which clutter strews a kind (world/clutter.h).
-enum class Habitat : std::uint8_t {
-  none,    ///< only where a scenario says so
-  facade,  ///< in front of a wall; its back to it
-  wall,    ///< so flat on a wall that it is in nobody's way
-  kerb,    ///< on the pavement, beside a road
-  road,    ///< parked along the edge of a road
-  lawn,    ///< on grass
-  corner,  ///< beside the corner of a building
-  lot      ///< on wide paved ground
-};
-
 /// Form of a prop where it meets the ground.
 enum class Foot : std::uint8_t { rectangle, disc, posts };
 
@@ -109,7 +97,6 @@ struct PropType {
   double height_m = 0;  ///< at most; 0: it grows
   SemanticClass semantic_class{};
   Foot foot = Foot::rectangle;
-  Habitat habitat = Habitat::none;
 };
 
 /// Kinds of props, in the order of PropKind.

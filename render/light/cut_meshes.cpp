@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "render/light/near_map.h"
 #include "render/light/refine.h"
@@ -84,11 +86,17 @@ std::size_t cut_props(float side_m, std::vector<PlacedProp>& props) {
   for (PlacedProp& prop : props) {
     if (prop.is_backdrop) continue;
     PropMesh& mesh = prop.mesh;
-    mesh.indices = refined(std::span<const std::uint32_t>(mesh.indices), mesh.vertices,
-                           [&](const PropVertex& a, const PropVertex& b) {
-                             return a.paint[3] != static_cast<std::uint8_t>(Finish::leaves) &&
-                                    (vertex_position(b) - vertex_position(a)).norm() > side_m;
-                           });
+    const std::span<const std::uint32_t> all(mesh.indices);
+    const std::size_t far_count = std::min(mesh.far_indices, all.size());
+    std::vector<std::uint32_t> cut =
+        refined(all.first(far_count), mesh.vertices, [&](const PropVertex& a, const PropVertex& b) {
+          return a.paint[3] != static_cast<std::uint8_t>(Finish::leaves) &&
+                 (vertex_position(b) - vertex_position(a)).norm() > side_m;
+        });
+    // Details are small enough.
+    mesh.far_indices = cut.size();
+    cut.insert(cut.end(), all.begin() + static_cast<std::ptrdiff_t>(far_count), all.end());
+    mesh.indices = std::move(cut);
     count += mesh.indices.size() / 3;
   }
   return count;

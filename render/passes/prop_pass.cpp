@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <functional>
 
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
@@ -20,11 +21,15 @@ constexpr std::string_view kNoSun = "#define NO_SUN\n";
 constexpr std::string_view kLeaves = "#define LEAVES\n";
 constexpr GLuint kLeafUnit = 5;  // also in shaders/prop.frag.glsl
 
-/// Appends the triangles of one kind, solid or leaves, of a mesh whose vertices start at `base`.
-Range append(const PropMesh& mesh, bool leaves, std::uint32_t base,
-             std::vector<std::uint32_t>& indices) {
+/// Props that are farther from the camera are drawn without details.
+constexpr double kDetailsM = 55;
+
+/// Appends the triangles of one kind, solid or leaves, of the first indices of a mesh, or of those
+/// after them, whose vertices start at `base`.
+Range append(const PropMesh& mesh, std::size_t from, std::size_t to, bool leaves,
+             std::uint32_t base, std::vector<std::uint32_t>& indices) {
   const auto first = static_cast<std::uint32_t>(indices.size());
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+  for (std::size_t i = from; i < to; i += 3) {
     const bool is_leaf =
         mesh.vertices[mesh.indices[i]].paint[3] == static_cast<std::uint8_t>(Finish::leaves);
     if (is_leaf != leaves) continue;
@@ -69,8 +74,12 @@ void PropPass::add(const PlacedProp& prop, std::vector<PropVertex>& vertices,
   item.box = bounds;
   item.middle = bounds.center();
   item.radius_m = 0.5 * bounds.diagonal().norm();
-  item.solid = append(mesh, false, base, indices);
-  item.leaves = append(mesh, true, base, indices);
+  const std::size_t count = mesh.indices.size();
+  const std::size_t far_count = std::min(mesh.far_indices, count);
+  item.far_solid = append(mesh, 0, far_count, false, base, indices);
+  const Range details = append(mesh, far_count, count, false, base, indices);
+  item.solid = {item.far_solid.first, item.far_solid.count + details.count};
+  item.leaves = append(mesh, 0, count, true, base, indices);
   item.closed = prop.closed;
   item.casts = prop.casts;
   item.is_backdrop = prop.is_backdrop;
@@ -122,12 +131,13 @@ PropPass::PropPass(const std::vector<PlacedProp>& props, std::string_view words,
   check_gl("loading props");
 }
 
+template <typename RangeOf>
 void PropPass::draw_ranges(const Program& program, const std::vector<const Item*>& items,
-                           Range Item::*range) const {
+                           const RangeOf& range_of) const {
   std::vector<GLsizei> counts;
   std::vector<const void*> offsets;
   for (const Item* item : items) {
-    const Range& triangles = item->*range;
+    const Range& triangles = std::invoke(range_of, *item);
     if (triangles.count == 0) continue;
     counts.push_back(static_cast<GLsizei>(triangles.count));
     const std::size_t offset = triangles.first * sizeof(std::uint32_t);
@@ -161,11 +171,15 @@ void PropPass::draw_with(const Program& solid, const Program& leaves, const Clip
   std::stable_sort(closed.begin(), closed.end(), [&](const Item* a, const Item* b) {
     return near.head<3>().dot(a->middle) < near.head<3>().dot(b->middle);
   });
+  const auto solid_of = [&](const Item& item) {
+    const double distance_m = near.head<3>().dot(item.middle) + near.w();
+    return distance_m > kDetailsM ? item.far_solid : item.solid;
+  };
   glBindVertexArray(array_.name());
   glEnable(GL_CULL_FACE);
-  draw_ranges(solid, closed, &Item::solid);
+  draw_ranges(solid, closed, solid_of);
   glDisable(GL_CULL_FACE);
-  draw_ranges(solid, open, &Item::solid);
+  draw_ranges(solid, open, solid_of);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
   draw_ranges(leaves, closed, &Item::leaves);
 }
@@ -209,7 +223,7 @@ void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2
   if (casters.empty()) return;
   glBindVertexArray(array_.name());
   glDisable(GL_CULL_FACE);
-  draw_ranges(shadow_, casters, &Item::solid);
+  draw_ranges(shadow_, casters, &Item::far_solid);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
   draw_ranges(leaf_shadow_, casters, &Item::leaves);
 }

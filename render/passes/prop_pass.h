@@ -24,7 +24,8 @@ class PropPass {
   PropPass(const std::vector<PlacedProp>& props, std::string_view words,
            const QualitySettings& quality);
 
-  /// Draws the props in view at a time of the run. Expects the same bindings as
+  /// Draws the props in view at a time of the run, with their details (PropMesh::far_indices) where
+  /// they are near. Expects the same bindings as
   /// SceneryPass::draw().
   void draw(const ClipPlanes& planes, double time_s) const;
 
@@ -49,6 +50,7 @@ class PropPass {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     double radius_m = 0;
     Range solid;
+    Range far_solid;  ///< its first part, without details
     Range leaves;
     bool closed = true;        ///< only its outside is visible
     bool casts = true;         ///< throws a shadow
@@ -62,8 +64,9 @@ class PropPass {
                  double time_s) const;
   /// Parts of the backdrop that may be in view.
   std::vector<const Item*> backdrop_in(const ClipPlanes& planes) const;
+  template <typename RangeOf>
   void draw_ranges(const Program& program, const std::vector<const Item*>& items,
-                   Range Item::*range) const;
+                   const RangeOf& range_of) const;
 
   std::vector<Item> items_;
   Buffer vertices_;

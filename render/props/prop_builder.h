@@ -62,11 +62,15 @@ class PropBuilder {
                                 id_,
                                 {}});
     }
-    std::array<std::uint32_t, 6> order = {0, 1, 2, 0, 2, 3};
-    // What is mirrored keeps its outside.
-    if (placing.linear().determinant() < 0) std::reverse(order.begin(), order.end());
     std::vector<std::uint32_t>& indices = is_near ? near_indices_ : mesh_.indices;
-    for (const std::uint32_t corner : order) indices.push_back(first + corner);
+    const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      if (corners[a] == corners[b] || corners[b] == corners[c] || corners[c] == corners[a]) return;
+      // What is mirrored keeps its outside.
+      if (placing.linear().determinant() < 0) std::swap(a, c);
+      for (const std::uint32_t corner : {a, b, c}) indices.push_back(first + corner);
+    };
+    triangle(0, 1, 2);
+    triangle(0, 2, 3);
   }
 
   /// Adds a card with a sprite of leaves, lit as a surface with this normal.

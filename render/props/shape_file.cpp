@@ -33,7 +33,7 @@ struct ShapePaint {
   Vector3d albedo = Vector3d::Zero();
   Finish finish = Finish::matt;
 };
-using ShapePaints = std::map<std::string, ShapePaint>;
+using NamedPaints = std::map<std::string, ShapePaint>;
 
 const json& shape_files() {
   static const json files = json::parse(embedded::prop_shapes);
@@ -41,8 +41,8 @@ const json& shape_files() {
 }
 
 Vector3d point(const json& numbers, std::size_t first = 0) {
-  return Vector3d(numbers.at(first).get<double>(), numbers.at(first + 1).get<double>(),
-                  numbers.at(first + 2).get<double>());
+  const auto at = [&](std::size_t i) { return numbers.at(first + i).get<double>(); };
+  return {at(0), at(1), at(2)};
 }
 
 Finish finish_named(const std::string& name) {
@@ -86,8 +86,8 @@ ShapePaint choose_paint(const json& paint, Random& random) {
           finish_named(paint.value("finish", std::string("matt")))};
 }
 
-ShapePaints choose_paints(const json& file, Random& random) {
-  ShapePaints paints;
+NamedPaints choose_paints(const json& file, Random& random) {
+  NamedPaints paints;
   for (const json* list : {&shape_files().at("paints"), &file}) {
     const auto found = list->find("paints");
     if (found == list->end()) continue;
@@ -260,7 +260,7 @@ class ShapeReader {
   }
 
   PropBuilder& builder_;
-  ShapePaints paints_;
+  NamedPaints paints_;
 };
 
 }  // namespace

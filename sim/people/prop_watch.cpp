@@ -22,8 +22,7 @@ world::Prop shrink_to_core(world::Prop prop) {
 PropWatch::PropWatch(const world::Scenario& scenario) : scenario_(&scenario) {
   for (std::size_t i = 0; i < scenario.props.size(); ++i) {
     const world::Prop& prop = scenario.props[i];
-    const double reach_m =
-        prop.scale * world::prop_type(prop.kind).half_size.norm();
+    const double reach_m = prop.scale * world::prop_type(prop.kind).half_size.norm();
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m);
     const Cell low = cell_of(prop.position - reach);
     const Cell high = cell_of(prop.position + reach);
@@ -59,13 +58,16 @@ void PropWatch::record(std::size_t number, std::size_t agent, const Eigen::Vecto
   noted_.insert(number);
   const world::Prop& prop = scenario_->props[number];
   const bool placed = number < scenario_->placed_props;
+  const bool strewn = number >= scenario_->props.size() - scenario_->strewn_props;
   // People of a blueprint have no numbers, and its props are obstacles.
   const bool is_built = scenario_->built_crowd != nullptr;
   problems_.push_back(
-      {scenario_->id, placed ? fmt::format("/props/{}/position", number) : std::string("/scatter"),
+      {scenario_->id,
+       placed   ? fmt::format("/props/{}/position", number)
+       : strewn ? std::string("/clutter")
+                : std::string("/scatter"),
        fmt::format("a {} at ({:.2f}, {:.2f}), in which {} is at ({:.2f}, {:.2f}) after {:.1f} s",
-                   world::prop_type(prop.kind).name,
-                   prop.position.x(), prop.position.y(),
+                   world::prop_type(prop.kind).name, prop.position.x(), prop.position.y(),
                    is_built ? "a person" : fmt::format("agent {}", agent), at.x(), at.y(), time_s),
        !placed    ? "areas in which nobody walks"
        : is_built ? "a place where nobody walks"

@@ -38,7 +38,8 @@ world::Scenario varied_place() {
   for (std::size_t kind = 0; kind < world::kPropKinds; ++kind) {
     world::Prop prop;
     prop.kind = static_cast<world::PropKind>(kind);
-    prop.position = {-14.0 + 7.0 * static_cast<double>(kind % 7), kind < 7 ? 16.0 : 28.0};
+    prop.position = {-14.0 + 7.0 * static_cast<double>(kind % 7),
+                     16.0 + 12.0 * static_cast<double>(kind / 7)};
     scenario.props.push_back(prop);
   }
   return scenario;

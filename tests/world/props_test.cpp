@@ -62,8 +62,8 @@ TEST_F(PropsTest, PlantersCoverAsMuchGroundAsTheyAreLarge) {
   const Scenario scenario = load(R"(, "props": [{"kind": "bush", "position": [-20, 0]},
                                                 {"kind": "planter", "position": [-30, 0]}])");
   ASSERT_EQ(scenario.props.size(), 2U);
-  EXPECT_EQ(semantic_class(scenario.props[0].kind), SemanticClass::bush);
-  EXPECT_EQ(semantic_class(scenario.props[1].kind), SemanticClass::planter);
+  EXPECT_EQ(prop_type(scenario.props[0].kind).semantic_class, SemanticClass::bush);
+  EXPECT_EQ(prop_type(scenario.props[1].kind).semantic_class, SemanticClass::planter);
   EXPECT_NEAR(distance_to(scenario.props[0], {-18, 0}), 1.3, 1e-9);
   EXPECT_NEAR(distance_to(scenario.props[1], {-30, 1.4}), 1, 1e-9);
 }

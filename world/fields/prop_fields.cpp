@@ -15,6 +15,7 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/rectangle.h"
 #include "base/geometry/triangulate.h"
+#include "world/clutter.h"
 #include "world/fields/document_values.h"
 #include "world/scenario.h"
 
@@ -206,6 +207,32 @@ void scatter_over(const Scatter& scatter, const Scenario& scenario, std::vector<
   }
 }
 
+const FieldTable<Clutter>& clutter_fields() {
+  static const FieldTable<Clutter> fields = [] {
+    std::vector<std::string> strewn;
+    for (std::size_t kind = 0; kind < kPropKinds; ++kind) {
+      if (is_strewn(static_cast<PropKind>(kind))) strewn.emplace_back(prop_types().at(kind).name);
+    }
+    FieldTable<Clutter> table;
+    table
+        .add("seed", "", "", fields::integers(0, kMaxId), at(&Clutter::seed),
+             "Seed of kinds, positions and looks.")
+        .required();
+    table.add("density", "", "", fields::numbers(0, 1), at(&Clutter::density),
+              "Share of the suitable places that are taken.");
+    table
+        .add_read(
+            "kinds", fields::open_lists(1, fields::one_of_words(strewn).rules),
+            [](Clutter& clutter, const json& value, const FieldLocation& /*place*/) {
+              for (const json& name : value) clutter.kinds.push_back(kind_named(name));
+            },
+            "Kinds to choose from; default: all of these.")
+        .without_default();
+    return table;
+  }();
+  return fields;
+}
+
 }  // namespace
 
 fields::Values prop_kinds() { return fields::one_of_words(kind_names()); }
@@ -227,6 +254,14 @@ void check_props(Scenario& scenario, const json& list, const FieldLocation& plac
       item.below("position").reject(refusal->found, refusal->expected);
     }
   }
+}
+
+fields::Values clutter_values() { return fields::object_with(clutter_fields().schema()); }
+
+void strew_clutter(Scenario& scenario, const json& value, const FieldLocation& place) {
+  Clutter clutter;
+  clutter_fields().read_checked(value, clutter, place);
+  if (!place.has_problem()) strew(clutter, scenario);
 }
 
 void scatter_props(Scenario& scenario, const json& list, const FieldLocation& place) {

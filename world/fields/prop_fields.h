@@ -28,4 +28,11 @@ void check_props(Scenario& scenario, const nlohmann::json& list,
 void scatter_props(Scenario& scenario, const nlohmann::json& list,
                    const fields::FieldLocation& place);
 
+/// Rules of a scenario's "clutter".
+fields::Values clutter_values();
+
+/// Reads "clutter" and strews it over a scenario whose other parts are already read.
+void strew_clutter(Scenario& scenario, const nlohmann::json& value,
+                   const fields::FieldLocation& place);
+
 }  // namespace throng::world

@@ -26,14 +26,36 @@ struct NamedProp {
   world::PropKind kind;
 };
 
-constexpr std::array<NamedProp, 7> kProps = {
+constexpr std::array<NamedProp, 29> kProps = {
     {{"natural", "tree", world::PropKind::tree},
      {"natural", "shrub", world::PropKind::bush},
      {"man_made", "planter", world::PropKind::planter},
      {"highway", "street_lamp", world::PropKind::lamp_post},
      {"amenity", "bench", world::PropKind::bench},
      {"amenity", "waste_basket", world::PropKind::bin},
-     {"barrier", "bollard", world::PropKind::bollard}}};
+     {"barrier", "bollard", world::PropKind::bollard},
+     {"amenity", "bicycle_parking", world::PropKind::bicycle_rack},
+     {"amenity", "bicycle_rental", world::PropKind::bicycle_rack},
+     {"amenity", "charging_station", world::PropKind::charging_station},
+     {"amenity", "drinking_water", world::PropKind::drinking_fountain},
+     {"amenity", "fountain", world::PropKind::fountain},
+     {"amenity", "parking_meter", world::PropKind::parking_meter},
+     {"amenity", "post_box", world::PropKind::post_box},
+     {"amenity", "recycling", world::PropKind::recycling_container},
+     {"amenity", "telephone", world::PropKind::phone_booth},
+     {"amenity", "vending_machine", world::PropKind::vending_machine},
+     {"advertising", "column", world::PropKind::advertising_column},
+     {"emergency", "fire_hydrant", world::PropKind::hydrant},
+     {"highway", "bus_stop", world::PropKind::bus_stop},
+     {"highway", "stop", world::PropKind::traffic_sign},
+     {"highway", "give_way", world::PropKind::traffic_sign},
+     {"highway", "traffic_signals", world::PropKind::traffic_light},
+     {"historic", "memorial", world::PropKind::statue},
+     {"leisure", "picnic_table", world::PropKind::picnic_table},
+     {"leisure", "playground", world::PropKind::swing},
+     {"man_made", "flagpole", world::PropKind::flagpole},
+     {"man_made", "street_cabinet", world::PropKind::cabinet},
+     {"tourism", "artwork", world::PropKind::statue}}};
 
 /// Whether another part of the import uses such a node.
 bool is_used(const std::string& key, const std::string& value) {

@@ -1,4 +1,4 @@
-// The props of a map: trees, lamps, benches, bins, bollards.
+// The props of a map: trees, lamps and other things that stand in streets.
 #pragma once
 
 #include <cstdint>

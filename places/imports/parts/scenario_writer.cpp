@@ -133,6 +133,7 @@ json scenario_json(const ImportedScenario& scenario, const Population& populatio
       {"buildings", buildings_json(scenario)},
       {"drones", drones_json(scenario)},
       {"props", props_json(scenario)},
+      {"clutter", {{"seed", 1}}},
       {"meshes", meshes}};
 }
 

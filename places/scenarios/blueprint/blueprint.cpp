@@ -62,7 +62,8 @@ json scenario_json(const json& blueprint) {
 /// The scenario without its people: what is wrong with it is the blueprint's fault.
 world::Scenario scenario_without_people(json document, const std::string& source,
                                         const std::string& id) {
-  document.erase("meshes");  // their files are not here, and people do not walk into them
+  document.erase("meshes");   // their files are not here, and people do not walk into them
+  document.erase("clutter");  // nor do they walk where it lies
   return world::parse_scenario(document, source, id);
 }
 

@@ -39,6 +39,7 @@ class Site {
                   {"scatter", json::array()},
                   {"exits", json::array()},
                   {"drones", json::array()}};
+    if (spec.clutter > 0) blueprint_["clutter"] = {{"seed", spec.seed}, {"density", spec.clutter}};
     blueprint_["ground"]["areas"] = json::array();
     blueprint_["ground"]["markings"] = json::array();
   }

@@ -54,8 +54,8 @@ void draw_props(const Scenario& scenario, Sheet& sheet) {
   for (const world::Building& building : scenario.buildings) {
     sheet.polygon(building.footprint, colors::kBuilding, colors::kInk);
   }
-  for (const world::Prop& prop : scenario.props) {
-    sheet.polygon(world::prop_footprint(prop), colors::kProp, drawing::kTransparent);
+  for (std::size_t i = 0; i + scenario.strewn_props < scenario.props.size(); ++i) {
+    sheet.polygon(world::prop_footprint(scenario.props[i]), colors::kProp, drawing::kTransparent);
   }
 }
 
