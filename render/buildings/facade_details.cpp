@@ -314,6 +314,7 @@ PropMesh facade_details(const BuildingModel& model, const world::Scenario& scena
     details.add();
     append(details.take(), mesh);
   }
+  mesh.far_indices = 0;  // none of it shows from afar
   return mesh;
 }
 
