@@ -78,23 +78,29 @@ class FrontDetails {
         builder_(prop_, id),
         random_(model.number, Stream::environment, 0xDE7A1 + front.number) {}
 
-  void add() {
-    constexpr double kMinFrontM = 2.5;
+  /// Bands, signs and awnings, which also show from afar.
+  void add_large() {
     if (front_.length_m < kMinFrontM) return;
     add_bands();
+    const bool has_shops = model_.look.has_shops && grid_.stories > 1;
+    for (int bay = 0; has_shops && bay < grid_.bays; bay += 2) add_shop(bay);
+  }
+
+  void add_small() {
+    if (front_.length_m < kMinFrontM) return;
     add_downpipe();
     add_balconies();
     for (int story = 1; story < grid_.stories; ++story) {
       for (int bay = 0; bay < grid_.bays; ++bay) add_at_window(story, bay);
     }
-    const bool has_shops = model_.look.has_shops && grid_.stories > 1;
-    for (int bay = 0; has_shops && bay < grid_.bays; bay += 2) add_shop(bay);
     if (grid_.bays >= 3) add_step();
   }
 
   PropMesh take() { return builder_.take(); }
 
  private:
+  static constexpr double kMinFrontM = 2.5;
+
   static world::Prop frame_prop(const Front& front) {
     world::Prop prop;
     prop.position = front.from;
@@ -309,12 +315,16 @@ PropMesh facade_details(const BuildingModel& model, const world::Scenario& scena
                         std::uint32_t id) {
   PropMesh mesh;
   if (!has_stories(model.building) || model.look.facade == Facade::glass) return mesh;
-  for (const Front& front : model.fronts) {
-    FrontDetails details(model, front, scenario, id);
-    details.add();
-    append(details.take(), mesh);
-  }
-  mesh.far_indices = 0;  // none of it shows from afar
+  const auto add = [&](auto part) {
+    for (const Front& front : model.fronts) {
+      FrontDetails details(model, front, scenario, id);
+      (details.*part)();
+      append(details.take(), mesh);
+    }
+  };
+  add(&FrontDetails::add_large);
+  mesh.far_indices = mesh.indices.size();
+  add(&FrontDetails::add_small);
   return mesh;
 }
 
