@@ -201,7 +201,9 @@ TEST(FacadeDetails, KeepClearOfPeopleAndOfExits) {
   constexpr double kHeadM = 2.1;
   constexpr double kStepM = 0.31;
   world::Scenario scenario;
-  scenario.exits.push_back({"door", {7, 0}, {9, 0}, {0, 1}});
+  world::Exit& door = scenario.exits.emplace_back();
+  door.from = {7, 0};
+  door.to = {9, 0};
   std::size_t total = 0;
   for (std::uint32_t number = 0; number < 60; ++number) {
     world::Building building = house(kBox, RoofKind::gabled);
