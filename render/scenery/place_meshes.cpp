@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "render/frame/frame.h"
+#include "render/ground/ground_decals.h"
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
 #include "render/scenery/far_land.h"
-#include "render/ground/ground_decals.h"
 #include "render/scenery/hedges.h"
 #include "render/scenery/rubble.h"
 #include "render/scenery/scenery.h"
