@@ -31,7 +31,6 @@ enum class DecalKind : std::uint8_t {
   daisies,
   weeds
 };
-inline constexpr std::size_t kDecalKinds = 17;
 
 /// A rectangle on the ground; half_size.x() is measured along its direction and not less than
 /// half_size.y().

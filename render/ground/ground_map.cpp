@@ -21,7 +21,8 @@ Eigen::AlignedBox2d polygon_bounds(const std::vector<Vector2d>& corners) {
 }  // namespace
 
 GroundMap::GroundMap(const world::Scenario& scenario) : scenario_(scenario) {
-  for (const world::GroundArea& area : scenario.areas) areas_.push_back(polygon_bounds(area.corners));
+  for (const world::GroundArea& area : scenario.areas)
+    areas_.push_back(polygon_bounds(area.corners));
   for (const world::Building& building : scenario.buildings) {
     buildings_.push_back(polygon_bounds(building.footprint));
   }

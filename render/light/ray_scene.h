@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "render/props/prop_mesh.h"
 #include "render/ground/scenery_mesh.h"
+#include "render/props/prop_mesh.h"
 
 namespace throng::render {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/props/prop_mesh.h"
 #include "render/ground/scenery_mesh.h"
+#include "render/props/prop_mesh.h"
 
 namespace throng::render {
 

@@ -4,8 +4,8 @@
 
 #include <string_view>
 
-#include "render/light/ray_scene.h"
 #include "render/ground/scenery_mesh.h"
+#include "render/light/ray_scene.h"
 
 namespace throng::render {
 

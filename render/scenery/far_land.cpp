@@ -8,9 +8,9 @@
 
 #include "base/geometry/polygon.h"
 #include "render/frame/frame.h"
+#include "render/ground/ground_layers.h"
 #include "render/props/prop_cells.h"
 #include "render/scenery/far_objects.h"
-#include "render/ground/ground_layers.h"
 #include "render/scenery/land_pattern.h"
 
 namespace throng::render {

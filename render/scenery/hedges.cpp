@@ -9,8 +9,8 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
 #include "render/frame/frame.h"
-#include "render/props/prop_cells.h"
 #include "render/ground/ground_tone.h"
+#include "render/props/prop_cells.h"
 #include "render/scenery/surface_classes.h"
 
 namespace throng::render {

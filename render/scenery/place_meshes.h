@@ -8,6 +8,7 @@
 #include "render/props/prop_mesh.h"
 #include "render/ground/ground_layers.h"
 #include "render/ground/scenery_mesh.h"
+#include "render/props/prop_mesh.h"
 #include "world/scenario.h"
 
 namespace throng::render {

@@ -98,13 +98,18 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   ivec2 seed = ivec2(id & 0xFFFFu, id >> 16);
   float pick = hash(seed);
   float w = max(width.x, width.y);
-  float rough = 0.65 * noise(p * 2.1 + vec2(seed & 1023)) + 0.35 * noise(p * 7.0 + vec2(seed & 511));
   vec2 at = abs(p) / half_size;
   float away = length(at);  // 1 on the rim of the ellipse in it
   vec3 albedo = vec3(0.02);
-  ONLY_WHERE(kind >= kLeaves) {
-    float dense = clamp(1.15 - away * away, 0.0, 1.0) * smoothstep(0.2, 0.75, rough) * 1.5 * step(away, 1.0);
-    albedo = small_objects(kind, p, dense, w, seed);
+  bool are_small = kind >= kLeaves;
+  opacity = 0.0;
+  ONLY_WHERE(are_small && away < 1.0 && w < 0.08) {
+    float dense = clamp(1.15 - away * away, 0.0, 1.0) * smoothstep(0.25, 0.75, noise(p * 2.1 + vec2(seed & 1023)));
+    albedo = small_objects(kind, p, 1.5 * dense, w, seed);
+  }
+  float rough = 0.5;
+  ONLY_WHERE(!are_small) {
+    rough = 0.65 * noise(p * 2.1 + vec2(seed & 1023)) + 0.35 * noise(p * 7.0 + vec2(seed & 511));
   }
   ONLY_WHERE(kind == kManhole) albedo = cover(p, width);
   ONLY_WHERE(kind == kDrain) albedo = grating(p, half_size, width);
