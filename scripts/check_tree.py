@@ -22,6 +22,7 @@ RULES = [
     ("CMakeLists.txt", 16),
     ("cmake/*", 16),
     ("render/shaders/*.glsl", 32),
+    ("render/props/shapes/*.json", 24),
     ("crowd/models/ttc_posterior.csv", 64),
     ("spec/*.json", 96),
     ("python/throng/layouts.json", 16),

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint64_t kStrewing = std::uint64_t{1} << 43;  // apart from other uses of the stream
 constexpr std::size_t kMaxStrewn = 2500;
 
-/// Ground on which a kind is strewn.
+/// Ground for a kind.
 enum class Habitat : std::uint8_t {
   facade,  ///< its back to a wall
   flat,    ///< so flat on a wall that people can pass
@@ -256,9 +256,11 @@ class Strewer {
     double road_m = next_place().uniform(2, 8);
     for (double at_m = 0; at_m < border.length; at_m += 1) {
       const Vector2d at = border.from + at_m * border.along;
+      const std::string_view beside = ground_.material_at(at - 0.8 * border.to_road);
       const double width_m = road_width(border, at);
-      if (width_m < 2) continue;
-      if (at_m >= kerb_m) kerb_m = at_m + beside_road(border, at);
+      if (width_m < 2 || beside == "asphalt" || beside.empty()) continue;
+      const bool is_pavement = beside == "pavers" || beside == "concrete";
+      if (at_m >= kerb_m && is_pavement) kerb_m = at_m + beside_road(border, at);
       if (at_m >= road_m && width_m >= kMinRoadM) road_m = at_m + park(border, at);
     }
   }
@@ -267,13 +269,9 @@ class Strewer {
   double beside_road(const Border& border, const Vector2d& at) {
     constexpr double kOffRoadM = 0.35;
     Random random = next_place();
-    const std::string_view pavement = ground_.material_at(at - 0.8 * border.to_road);
     const Rule* const rule = choose(Habitat::kerb, random);
     const double step_m = random.uniform(3, 9);
-    if (rule == nullptr || (pavement != "pavers" && pavement != "concrete") ||
-        random.uniform() >= clutter_.density) {
-      return step_m;
-    }
+    if (rule == nullptr || random.uniform() >= clutter_.density) return step_m;
     const Vector2d back = -border.to_road;
     const double yaw_rad = std::atan2(back.y(), back.x()) - 0.5 * std::numbers::pi;
     const bool faces_drivers =
@@ -289,7 +287,7 @@ class Strewer {
     const Rule* const rule = choose(Habitat::road, random);
     if (rule == nullptr || random.uniform() >= clutter_.density) return kFreeM;
     const bool is_wide = prop_type(rule->kind).half_size.y() > 0.5;
-    // Who drives on the right has the kerb on the right, but for some; two wheels stand across.
+    // Traffic on the right has the kerb on the right, but for some cars; two wheels stand across.
     const double turn_rad = is_wide ? (random.uniform() < 0.12 ? std::numbers::pi : 0)
                                     : random.uniform(0.4, 0.5) * std::numbers::pi;
     const double yaw_rad = std::atan2(border.along.y(), border.along.x()) + turn_rad;

@@ -103,7 +103,7 @@ struct Scenario {
   std::vector<Disaster> disasters;
   /// Whether the behavior file lets people who have not noticed a disaster follow a drone.
   bool guides_alert = false;
-  std::vector<Prop> props;  ///< placed in the order of the file, then scattered, then strewn ones
+  std::vector<Prop> props;  ///< placed in the order of the file, then scattered, then of clutter
   std::size_t placed_props = 0;  ///< number of placed props
   std::size_t strewn_props = 0;  ///< number of clutter's, which no crowd walks around
   std::vector<PlacedMesh> meshes;
@@ -120,7 +120,7 @@ struct Scenario {
   bool has_crowd() const { return built_crowd || (!scene_file.empty() && !behavior_file.empty()); }
 };
 
-/// Removes scattered and strewn props: each stays with probability `share` (0 to 1), determined by
+/// Removes scattered props and clutter: each stays with probability `share` (0 to 1), determined by
 /// the seed. The props that stay at a smaller share are a subset of those that stay at a larger
 /// one.
 void thin_out(Scenario& scenario, double share, std::uint64_t seed);

@@ -82,7 +82,7 @@ struct SemanticClassInfo {
   SemanticGroup group{};
 };
 
-/// Whether things of a class are vehicles, which have labels of their own: motor vehicles and
+/// Whether objects of a class are vehicles, which have labels of their own: motor vehicles and
 /// trains.
 bool is_vehicle(SemanticClass value);
 

@@ -94,7 +94,7 @@ constexpr std::string_view kLensNote =
     "Files without such a line are a pinhole's. Boxes of label_2 are those of the distorted\n"
     "images; places, sizes and rotation_y are those of the camera's frame.\n";
 
-/// What KITTI has no type for is "Misc".
+/// The type of a vehicle; "Misc" where KITTI has none.
 std::string_view kitti_type(world::SemanticClass vehicle) {
   switch (vehicle) {
     case world::SemanticClass::car:

@@ -117,7 +117,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
 
     @property
     def vehicles(self) -> Annotations:
-        """Cars and trains, of jobs with "vehicles" in outputs.annotations."""
+        """Motor vehicles and trains, of jobs with "vehicles" in outputs.annotations."""
         return self.select([record.get("category_id") in VEHICLES for record in self.records])
 
     def _column(

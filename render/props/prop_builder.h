@@ -34,8 +34,8 @@ class PropBuilder {
   }
   Random& random() { return random_; }
 
-  /// Where and how the surfaces that are added from now on stand in the prop's frame; it may mirror
-  /// them.
+  /// The pose, in the prop's frame, of surfaces that are added from now on, which it may scale and
+  /// mirror.
   Eigen::Affine3d placing = Eigen::Affine3d::Identity();
   /// Whether they are details that are only drawn near.
   bool is_near = false;
@@ -65,7 +65,7 @@ class PropBuilder {
     std::vector<std::uint32_t>& indices = is_near ? near_indices_ : mesh_.indices;
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       if (corners[a] == corners[b] || corners[b] == corners[c] || corners[c] == corners[a]) return;
-      // What is mirrored keeps its outside.
+      // A mirrored surface keeps its outside.
       if (placing.linear().determinant() < 0) std::swap(a, c);
       for (const std::uint32_t corner : {a, b, c}) indices.push_back(first + corner);
     };

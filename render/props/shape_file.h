@@ -1,4 +1,4 @@
-// Shapes of props as data: shapes/NAME.json, embedded. A file has "parts" and the "paints" that
+// Shapes of props as data: shapes/*/NAME.json, embedded. A file has "parts" and the "paints" that
 // they name, chosen once per prop; paints.json has those of all. A part is one surface:
 //
 //   box [x0, y0, z0, x1, y1, z1]              block [x0, y0, x1, y1, z0, x0, y0, x1, y1, z1]

@@ -58,14 +58,14 @@ void PropWatch::record(std::size_t number, std::size_t agent, const Eigen::Vecto
   noted_.insert(number);
   const world::Prop& prop = scenario_->props[number];
   const bool placed = number < scenario_->placed_props;
-  const bool strewn = number >= scenario_->props.size() - scenario_->strewn_props;
+  const bool is_clutter = number >= scenario_->props.size() - scenario_->strewn_props;
   // People of a blueprint have no numbers, and its props are obstacles.
   const bool is_built = scenario_->built_crowd != nullptr;
   problems_.push_back(
       {scenario_->id,
-       placed   ? fmt::format("/props/{}/position", number)
-       : strewn ? std::string("/clutter")
-                : std::string("/scatter"),
+       placed       ? fmt::format("/props/{}/position", number)
+       : is_clutter ? std::string("/clutter")
+                    : std::string("/scatter"),
        fmt::format("a {} at ({:.2f}, {:.2f}), in which {} is at ({:.2f}, {:.2f}) after {:.1f} s",
                    world::prop_type(prop.kind).name, prop.position.x(), prop.position.y(),
                    is_built ? "a person" : fmt::format("agent {}", agent), at.x(), at.y(), time_s),

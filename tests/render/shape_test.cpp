@@ -57,11 +57,11 @@ TEST_P(ShapeFile, StandsUprightOnTheGroundThatItsKindCovers) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<std::size_t>& kind) {
+std::string kind_name(const testing::TestParamInfo<std::size_t>& kind) {
   return std::string(world::prop_types().at(kind.param).name);
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, ShapeFile, testing::Range(std::size_t{0}, world::kPropKinds),
-                         name_of);
+                         kind_name);
 
 TEST(ShapeFiles, AreKindsOrPartsOfThem) {
   for (const std::string_view name : shape_names()) {

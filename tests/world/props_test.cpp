@@ -69,7 +69,7 @@ TEST_F(PropsTest, PlantersCoverAsMuchGroundAsTheyAreLarge) {
 }
 
 TEST_F(PropsTest, MistakesAreNamedByTheirPointer) {
-  EXPECT_EQ(refused_at(R"(, "props": [{"kind": "statue", "position": [0, 0]}])"), "/props/0/kind");
+  EXPECT_EQ(refused_at(R"(, "props": [{"kind": "unicorn", "position": [0, 0]}])"), "/props/0/kind");
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin"}])"), "/props/0/position");
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin", "position": [0, 0], "size": 1}])"),
             "/props/0/size");

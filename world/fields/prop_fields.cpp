@@ -209,9 +209,9 @@ void scatter_over(const Scatter& scatter, const Scenario& scenario, std::vector<
 
 const FieldTable<Clutter>& clutter_fields() {
   static const FieldTable<Clutter> fields = [] {
-    std::vector<std::string> strewn;
+    std::vector<std::string> names;
     for (std::size_t kind = 0; kind < kPropKinds; ++kind) {
-      if (is_strewn(static_cast<PropKind>(kind))) strewn.emplace_back(prop_types().at(kind).name);
+      if (is_strewn(static_cast<PropKind>(kind))) names.emplace_back(prop_types().at(kind).name);
     }
     FieldTable<Clutter> table;
     table
@@ -222,7 +222,7 @@ const FieldTable<Clutter>& clutter_fields() {
               "Share of the suitable places that are taken.");
     table
         .add_read(
-            "kinds", fields::open_lists(1, fields::one_of_words(strewn).rules),
+            "kinds", fields::open_lists(1, fields::one_of_words(names).rules),
             [](Clutter& clutter, const json& value, const FieldLocation& /*place*/) {
               for (const json& name : value) clutter.kinds.push_back(kind_named(name));
             },

@@ -174,8 +174,9 @@ void add_parts(FieldTable<Scenario>& table) {
   table.add_list("props", prop_fields(), at(&Scenario::props), "Props, each at its position.")
       .checked(check_props);
   table.add_read("scatter", scatter_lists(), scatter_props, "Props that a seed places at random.");
-  table.add_read("clutter", clutter_values(), strew_clutter,
-                 "What a seed strews along walls and roads and on lawns, where nobody walks.");
+  table.add_read(
+      "clutter", clutter_values(), strew_clutter,
+      "Props that a seed strews along walls and roads and on lawns, where nobody walks.");
 }
 
 }  // namespace

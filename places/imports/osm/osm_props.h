@@ -1,4 +1,4 @@
-// The props of a map: trees, lamps and other things that stand in streets.
+// The props of a map: trees, lamps and other furniture of streets.
 #pragma once
 
 #include <cstdint>

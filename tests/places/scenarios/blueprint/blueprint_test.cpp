@@ -60,12 +60,12 @@ class Blueprint : public ::testing::Test {
 TEST_F(Blueprint, HasTheSameCrowdWithAndWithoutClutter) {
   auto plain = scenario_files(blueprint, "square", "sq");
   blueprint["clutter"] = {{"seed", 2}, {"density", 1}};
-  auto strewn = scenario_files(blueprint, "square", "sq");
-  EXPECT_EQ(json::parse(strewn.at("sq.json"))["clutter"]["seed"], 2);
+  auto cluttered = scenario_files(blueprint, "square", "sq");
+  EXPECT_EQ(json::parse(cluttered.at("sq.json"))["clutter"]["seed"], 2);
   EXPECT_GT(make().strewn_props, 20U);
   plain.erase("sq.json");
-  strewn.erase("sq.json");
-  EXPECT_EQ(plain, strewn);
+  cluttered.erase("sq.json");
+  EXPECT_EQ(plain, cluttered);
 }
 
 TEST_F(Blueprint, BecomesAScenarioWithoutFaults) {
