@@ -21,8 +21,8 @@ struct SceneryVertex {
   /// across (m).
   std::array<float, 4> local{};
   std::uint32_t id = 0;  ///< value in the id buffer; decals, which leave it alone: a random number
-  /// Walls: value of world::Facade or WallLook. Roofs: of world::Covering or RoofLook. Decals: value
-  /// of DecalKind + width / length, which is below 1.
+  /// Walls: value of world::Facade or WallLook. Roofs: of world::Covering or RoofLook. Decals:
+  /// value of DecalKind + width / length, which is below 1.
   float facade = 0;
   /// Walls and roofs: linear albedo; of a front then a number that distinguishes it, of which the
   /// highest bit says that it has shops.

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <utility>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/compute/random.h"
 

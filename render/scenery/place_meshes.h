@@ -4,8 +4,6 @@
 
 #include <vector>
 
-#include "render/ground/scenery_mesh.h"
-#include "render/props/prop_mesh.h"
 #include "render/ground/ground_layers.h"
 #include "render/ground/scenery_mesh.h"
 #include "render/props/prop_mesh.h"

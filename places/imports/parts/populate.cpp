@@ -127,9 +127,8 @@ void take_props_away(ImportedScenario& scenario, const std::vector<Gate>& gates)
     if (!is_in_the_way(prop, scenario, bounds, gates)) return false;
     scenario.skipped.push_back(
         {"", 0,
-         fmt::format("{} at [{:.1f}, {:.1f}]",
-                     world::prop_type(prop.kind).name,
-                     prop.position.x(), prop.position.y()),
+         fmt::format("{} at [{:.1f}, {:.1f}]", world::prop_type(prop.kind).name, prop.position.x(),
+                     prop.position.y()),
          "stands in a building or before an exit"});
     return true;
   });

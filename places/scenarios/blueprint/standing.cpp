@@ -21,9 +21,7 @@ constexpr double kMaxDistanceM = 1;     // nobody cares beyond
 std::vector<Vector2d> prop_outline(const world::Prop& prop) {
   // Nothing thinner than this: a wall of no width is none.
   constexpr double kThinnestM = 0.1;
-  const Vector2d half =
-      (prop.scale * world::prop_type(prop.kind).half_size)
-          .cwiseMax(kThinnestM);
+  const Vector2d half = (prop.scale * world::prop_type(prop.kind).half_size).cwiseMax(kThinnestM);
   const auto corners = geometry::turned_rectangle(prop.position, half, prop.yaw_rad);
   return {corners.begin(), corners.end()};
 }

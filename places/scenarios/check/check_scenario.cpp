@@ -153,11 +153,9 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
     for (std::size_t i = 0; i < scenario.props.size(); ++i) {
       if ((scenario.props[i].position - at).squaredNorm() < 400 &&
           world::distance_to(scenario.props[i], at) == 0) {
-        in_props.add(
-            agent, at,
-            fmt::format("in the {} at {}",
-                        world::prop_type(scenario.props[i].kind).name,
-                        point_text(scenario.props[i].position)));
+        in_props.add(agent, at,
+                     fmt::format("in the {} at {}", world::prop_type(scenario.props[i].kind).name,
+                                 point_text(scenario.props[i].position)));
       }
     }
     if (routes.cell_at(at) == Routes::kNone) continue;  // outside: nothing to escape from
