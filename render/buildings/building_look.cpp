@@ -57,7 +57,7 @@ Facade choose_facade(const world::Building& building, std::uint32_t number) {
   const double pick_one = pick(number, Choice::facade);
   if (building.height_m < kMinStoryM) return pick_one < 0.4 ? Facade::brick : Facade::plaster;
   if (building.height_m > kTowerM) return choose(kTowers, pick_one);
-  const Eigen::Vector2d along = longest_side(building.footprint);
+  const Eigen::Vector2d along = main_direction(building.footprint);
   if (extent_m(building.footprint, {-along.y(), along.x()}) > kHallDeepM) {
     return choose(kHalls, pick_one);
   }
@@ -83,7 +83,7 @@ RoofKind choose_roof(const world::Building& building, Facade facade, std::uint32
   constexpr double kLowM = 4.5;
   constexpr double kDeepM = 19;
   constexpr std::size_t kMaxCorners = 14;
-  const Eigen::Vector2d along = longest_side(building.footprint);
+  const Eigen::Vector2d along = main_direction(building.footprint);
   const double deep_m = extent_m(building.footprint, {-along.y(), along.x()});
   const double pick_one = pick(number, Choice::roof);
   if (building.height_m < kLowM || building.footprint.size() > kMaxCorners) return RoofKind::flat;
@@ -219,7 +219,7 @@ std::size_t index_at(Paints paints, double pick_one) {
 
 }  // namespace
 
-Eigen::Vector2d longest_side(std::span<const Eigen::Vector2d> footprint) {
+Eigen::Vector2d main_direction(std::span<const Eigen::Vector2d> footprint) {
   Eigen::Vector2d longest = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < footprint.size(); ++i) {
     const Eigen::Vector2d edge = footprint[(i + 1) % footprint.size()] - footprint[i];

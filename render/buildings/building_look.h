@@ -31,7 +31,7 @@ BuildingLook building_look(const world::Building& building, std::uint32_t number
 Paint front_paint(world::Facade facade, std::uint32_t number, std::uint32_t front);
 
 /// The unit vector along the longest wall.
-Eigen::Vector2d longest_side(std::span<const Eigen::Vector2d> footprint);
+Eigen::Vector2d main_direction(std::span<const Eigen::Vector2d> footprint);
 
 /// How far a footprint reaches in a direction (m).
 double extent_m(std::span<const Eigen::Vector2d> footprint, const Eigen::Vector2d& direction);

@@ -162,7 +162,7 @@ void add_roof(const BuildingModel& model, SceneryMesh& mesh) {
     const Vector2d from =
         model.roof.is_flat ? model.building.footprint.front() : Vector2d(surface.from);
     const Vector2d along =
-        model.roof.is_flat ? longest_side(model.building.footprint) : Vector2d(surface.along);
+        model.roof.is_flat ? main_direction(model.building.footprint) : Vector2d(surface.along);
     const Vector2d inward(-along.y(), along.x());
     const Vector3d normal = (surface.corners[1] - surface.corners[0])
                                 .cross(surface.corners[2] - surface.corners[0])

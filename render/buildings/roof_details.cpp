@@ -370,7 +370,7 @@ class RoofDetails {
   const BuildingModel& model_;
   PropBuilder builder_;
   Random random_;
-  Vector2d along_ = longest_side(model_.building.footprint);
+  Vector2d along_ = main_direction(model_.building.footprint);
   std::vector<Stand> taken_;
 };
 

@@ -105,7 +105,7 @@ std::vector<double> gabled_speeds(const Footprint& footprint, const world::Roof&
 
 /// All walls stay but the one towards which the roof falls.
 std::vector<double> shed_speeds(const Footprint& footprint, const world::Roof& roof) {
-  Vector2d falls = longest_side(footprint);
+  Vector2d falls = main_direction(footprint);
   falls = Vector2d(falls.y(), -falls.x());
   if (roof.falls_rad) falls = {std::cos(*roof.falls_rad), std::sin(*roof.falls_rad)};
   std::vector<double> speeds(footprint.size(), 0);
@@ -237,7 +237,7 @@ RoofShape pitched_roof(const world::Building& building, const std::vector<SweptS
 RoofShape sawtooth_roof(const world::Building& building, const BuildingLook& look) {
   constexpr double kToothM = 6;
   const Footprint& footprint = building.footprint;
-  const Vector2d along = longest_side(footprint);
+  const Vector2d along = main_direction(footprint);
   double first = std::numeric_limits<double>::infinity();
   for (const Vector2d& corner : footprint) first = std::min(first, corner.dot(along));
   const double length_m = extent_m(footprint, along);

@@ -137,7 +137,7 @@ void add_parts(const Outline& outline, const BuildingPiece& whole, const std::st
   for (const OsmArea* part : outline.parts) {
     pieces.push_back(building_piece(*part, inherited(part->tags, outline.area->tags)));
     pieces.back().part = whole.stands;
-    // What is said of no roof is a flat one, but of a whole building nothing.
+    // A part without a roof's shape is flat; a whole building may have any.
     world::Roof& roof = pieces.back().looks.roof;
     if (roof.kind == world::RoofKind::by_id) roof.kind = world::RoofKind::flat;
     note_unread(*part, pieces.back(), file, result.skipped);

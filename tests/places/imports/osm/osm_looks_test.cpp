@@ -48,7 +48,7 @@ TEST(OsmLooks, ShortColorsAreReadAsCssDoes) {
   }
 }
 
-TEST(OsmLooks, WhatIsNotDrawnAsTaggedIsListed) {
+TEST(OsmLooks, ListTagsThatAreNotDrawnAsTheySay) {
   const Tags tags = {{"roof:shape", "onion"},          {"roof:material", "thatch"},
                      {"roof:colour", "reddish"},       {"roof:angle", "steep"},
                      {"roof:orientation", "across"},   {"building:material", "wood"},
