@@ -24,7 +24,7 @@ constexpr std::size_t kMaxStrewn = 2500;
 /// Ground for a kind.
 enum class Habitat : std::uint8_t {
   facade,  ///< its back to a wall
-  flat,    ///< so flat on a wall that people can pass
+  flat,    ///< hanging on a wall
   corner,  ///< its back to a wall, beside a corner of the house
   kerb,    ///< on the pavement, its back to it, beside a road
   road,    ///< parked along the edge of a road
@@ -156,10 +156,10 @@ class Strewer {
     return chosen;
   }
 
-  bool add(Prop prop, Random& random, bool is_flat = false) {
+  bool add(Prop prop, Random& random) {
     prop.look = random.bits();
     const bool is_full = scenario_.strewn_props >= kMaxStrewn;
-    if (is_full || !ground_.is_free(prop, is_flat)) return false;
+    if (is_full || !ground_.is_free(prop)) return false;
     ground_.take(prop);
     scenario_.props.push_back(prop);
     ++scenario_.strewn_props;
@@ -183,7 +183,7 @@ class Strewer {
            .position =
                from + (half_length + i * apart_m) * along + (off_m + half_depth + jitter) * out,
            .yaw_rad = yaw_rad + (jitter - 0.03)},
-          random, rule.habitat == Habitat::flat);
+          random);
     }
     return count * apart_m;
   }

@@ -39,14 +39,14 @@ std::array<Vector2d, 4> strip(const Vector2d& from, const Vector2d& to, double h
 }  // namespace
 
 FreeGround::FreeGround(const Scenario& scenario) : scenario_(scenario) {
-  for (const Building& building : scenario.buildings) add(building.footprint, false);
+  for (const Building& building : scenario.buildings) add(building.footprint);
   for (const Exit& exit : scenario.exits) add_exit(exit);
   for (const Marking& marking : scenario.markings) {
     if (marking.kind == "crossing") {
-      add(strip(marking.from, marking.to, 0.5 * marking.width_m + kOffCrossingsM), true);
+      add(strip(marking.from, marking.to, 0.5 * marking.width_m + kOffCrossingsM));
     }
   }
-  for (const Prop& prop : scenario.props) add(widened(prop, kApartM), false);
+  for (const Prop& prop : scenario.props) add(widened(prop, kApartM));
   for (std::uint32_t i = 0; i < scenario.areas.size(); ++i) {
     const auto [first, last] = buckets(scenario.areas[i].corners);
     for (int x = first.x(); x <= last.x(); ++x) {
@@ -61,7 +61,7 @@ void FreeGround::add_exit(const Exit& exit) {
   Vector2d behind = exit.middle();
   while (scenario_.inside.contains(behind)) behind += exit.outward;
   behind += kBehindExitsM * exit.outward;
-  add(strip(exit.middle() - kClearOfExitsM * exit.outward, behind, reach_m), false);
+  add(strip(exit.middle() - kClearOfExitsM * exit.outward, behind, reach_m));
 }
 
 std::pair<Vector2i, Vector2i> FreeGround::buckets(std::span<const Vector2d> corners) {
@@ -70,18 +70,18 @@ std::pair<Vector2i, Vector2i> FreeGround::buckets(std::span<const Vector2d> corn
           (high / kBucketM).array().floor().cast<int>()};
 }
 
-void FreeGround::add(std::span<const Vector2d> corners, bool passes_flat) {
+void FreeGround::add(std::span<const Vector2d> corners) {
   const auto number = static_cast<std::uint32_t>(taken_.size());
-  taken_.push_back({{corners.begin(), corners.end()}, passes_flat});
+  taken_.emplace_back(corners.begin(), corners.end());
   const auto [first, last] = buckets(corners);
   for (int x = first.x(); x <= last.x(); ++x) {
     for (int y = first.y(); y <= last.y(); ++y) taken_in_[key(x, y)].push_back(number);
   }
 }
 
-void FreeGround::take(const Prop& prop) { add(widened(prop, 0.1), false); }
+void FreeGround::take(const Prop& prop) { add(widened(prop, 0.1)); }
 
-bool FreeGround::is_free(const Prop& prop, bool is_flat) const {
+bool FreeGround::is_free(const Prop& prop) const {
   const auto corners = prop_footprint(prop);
   for (const Vector2d& corner : corners) {
     if (!scenario_.ground.contains(corner)) return false;
@@ -92,14 +92,12 @@ bool FreeGround::is_free(const Prop& prop, bool is_flat) const {
       const auto found = taken_in_.find(key(x, y));
       if (found == taken_in_.end()) continue;
       for (const std::uint32_t i : found->second) {
-        if (!(is_flat && taken_[i].passes_flat) && geometry::touch(taken_[i].corners, corners)) {
-          return false;
-        }
+        if (geometry::touch(taken_[i], corners)) return false;
       }
     }
   }
   // People who have left may still be near.
-  return is_flat || !geometry::touch(scenario_.inside.corners(), widened(prop, kOffPeopleM));
+  return !geometry::touch(scenario_.inside.corners(), widened(prop, kOffPeopleM));
 }
 
 std::string_view FreeGround::material_at(const Vector2d& point) const {

@@ -19,9 +19,8 @@ class FreeGround {
   /// `scenario` must outlive this object.
   explicit FreeGround(const Scenario& scenario);
 
-  /// Whether nothing is in the way of a prop, and nobody passes. `is_flat`: it is so flat on a
-  /// wall that people may pass.
-  bool is_free(const Prop& prop, bool is_flat) const;
+  /// Whether nothing is in the way of a prop, and nobody passes.
+  bool is_free(const Prop& prop) const;
   /// Takes the prop's ground and a margin around it.
   void take(const Prop& prop);
 
@@ -29,18 +28,14 @@ class FreeGround {
   std::string_view material_at(const Eigen::Vector2d& point) const;
 
  private:
-  struct Taken {
-    std::vector<Eigen::Vector2d> corners;
-    bool passes_flat = false;  ///< what is flat on a wall may stand there
-  };
-  void add(std::span<const Eigen::Vector2d> corners, bool passes_flat);
+  void add(std::span<const Eigen::Vector2d> corners);
   void add_exit(const Exit& exit);
   /// The first and the last bucket in which a polygon lies.
   static std::pair<Eigen::Vector2i, Eigen::Vector2i> buckets(
       std::span<const Eigen::Vector2d> corners);
 
   const Scenario& scenario_;
-  std::vector<Taken> taken_;
+  std::vector<std::vector<Eigen::Vector2d>> taken_;
   std::unordered_map<std::int64_t, std::vector<std::uint32_t>> taken_in_;  ///< by bucket
   std::unordered_map<std::int64_t, std::vector<std::uint32_t>> areas_in_;  ///< by bucket
 };

@@ -92,9 +92,7 @@ TEST(Clutter, StandsWhereNobodyWalks) {
       }
       for (const Eigen::Vector2d& corner : corners) {
         EXPECT_TRUE(scenario.ground.contains(corner));
-        if (prop.kind != PropKind::wall_box) {
-          EXPECT_FALSE(scenario.inside.contains(corner));
-        }
+        EXPECT_FALSE(scenario.inside.contains(corner));
         const bool is_before_door =
             std::abs(corner.x()) < 4 && corner.y() < -13.2 && corner.y() > -44;
         EXPECT_FALSE(is_before_door);
