@@ -83,7 +83,7 @@ class Sweep {
     return loop[(i + 1) % loop.size()];
   }
 
-  /// Where a corner goes: both of its edges move at their speeds. Nothing between edges that run
+  /// The way of a corner: both of its edges move at their speeds. Nothing between edges that run
   /// against each other, where there is no way that both allow.
   std::optional<Vector2d> velocity(const Loop& loop, std::size_t i) const {
     const std::size_t a = before(loop, i).edge;
