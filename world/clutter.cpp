@@ -126,13 +126,21 @@ class Strewer {
       for (std::size_t i = 0; i < area.corners.size(); ++i) {
         along_border(area.corners[i], area.corners[(i + 1) % area.corners.size()]);
       }
-      if (area.material == "grass") over(area.corners, Habitat::lawn, 45);
+      if (area.material == "grass" && !is_pitch(area)) over(area.corners, Habitat::lawn, 45);
     }
     const auto& [low, high] = scenario_.ground;
     over({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, Habitat::lot, 1500);
   }
 
  private:
+  /// Whether lines are painted on an area, as on a football pitch.
+  bool is_pitch(const GroundArea& area) const {
+    return std::any_of(
+        scenario_.markings.begin(), scenario_.markings.end(), [&](const Marking& marking) {
+          return geometry::signed_distance_to(area.corners, 0.5 * (marking.from + marking.to)) < 0;
+        });
+  }
+
   Random next_place() { return {clutter_.seed, Stream::environment, kStrewing + places_++}; }
 
   /// A rule of the habitat, by weight, among the kinds that are wanted; none if there are none.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/compute/random.h"
+#include "base/geometry/polygon.h"
 #include "render/buildings/building_paints.h"
 #include "render/buildings/exit_doors.h"
 #include "render/buildings/facade_style.h"
@@ -100,6 +101,7 @@ class FrontDetails {
 
  private:
   static constexpr double kMinFrontM = 2.5;
+  static constexpr double kBoardM = 0.36;  ///< height of a shop sign
 
   static world::Prop frame_prop(const Front& front) {
     world::Prop prop;
@@ -117,6 +119,17 @@ class FrontDetails {
   bool is_near_exit_at(double along_m) const {
     constexpr double kClearM = 2.6;
     return is_near_exit(scenario_, front_.from + along_m * front_.along, kClearM);
+  }
+
+  /// Whether something stands where an awning would hang.
+  bool is_before_prop(double from_m, double to_m) const {
+    constexpr double kRoomM = 2.6;
+    const Vector2d a = front_.from + from_m * front_.along;
+    const Vector2d b = front_.from + to_m * front_.along;
+    return std::any_of(scenario_.props.begin(), scenario_.props.end(),
+                       [&](const world::Prop& prop) {
+                         return geometry::distance_to_segment(a, b, prop.position) < kRoomM;
+                       });
   }
 
   Vector3d wall_paint() const { return front_.paint.matrix().cast<double>(); }
@@ -168,7 +181,7 @@ class FrontDetails {
     const double to = middle_m + half_m;
     box(from, to, floor_m - 0.14, floor_m, kDeepM, 0.9 * paints::kStone);
     if (is_solid) {
-      const Vector3d paint = 0.92 * wall_paint();
+      const Vector3d paint = 0.4 * wall_paint() + 0.5 * paints::kStone;
       builder_.box({from, -kDeepM, floor_m}, {to, -kDeepM + 0.06, floor_m + kRailM}, paint);
       for (const double x : {from, to - 0.06}) {
         builder_.box({x, -kDeepM + 0.06, floor_m}, {x + 0.06, 0, floor_m + kRailM}, paint);
@@ -233,32 +246,33 @@ class FrontDetails {
     constexpr double kVacantShare = 0.14;
     if (to - from < 1.8 || draw < kVacantShare) return;
     if (is_near_exit_at(from) || is_near_exit_at(to) || is_near_exit_at(0.5 * (from + to))) return;
-    const double board_m = std::min(0.84 * grid_.story_m, 3.1);
-    box(from, to, board_m, board_m + 0.5, 0.07, color(trade.board), Finish::matt);
+    // Below the course above the ground floor.
+    const double board_m = std::min(grid_.story_m - 0.62, 3.2);
+    box(from, to, board_m, board_m + kBoardM, 0.06, color(trade.board));
     add_letters(trade, 0.5 * (from + to), board_m, to - from);
-    if (awning < trade.awning_share) {
-      add_awning(from, to, board_m - 0.04, trade);
+    if (awning < trade.awning_share && !is_before_prop(from, to)) {
+      add_awning(from, to, board_m - 0.02, trade);
     } else if (awning > 0.75) {
       add_blade_sign(to - 0.3, board_m + 0.6, trade);
     }
   }
 
   void add_letters(const Trade& trade, double middle_m, double board_m, double room_m) {
-    const double wide_m = std::min(0.9 * room_m, 0.34 * kLetterAspect);
+    const double wide_m = std::min(0.9 * room_m, 0.29 * kLetterAspect);
     const double tall_m = wide_m / kLetterAspect;
-    const double low_m = board_m + 0.25 - 0.5 * tall_m;
-    builder_.word({Vector3d(middle_m - 0.5 * wide_m, -0.085, low_m),
-                   Vector3d(middle_m + 0.5 * wide_m, -0.085, low_m),
-                   Vector3d(middle_m + 0.5 * wide_m, -0.085, low_m + tall_m),
-                   Vector3d(middle_m - 0.5 * wide_m, -0.085, low_m + tall_m)},
+    const double low_m = board_m + 0.5 * (kBoardM - tall_m);
+    builder_.word({Vector3d(middle_m - 0.5 * wide_m, -0.075, low_m),
+                   Vector3d(middle_m + 0.5 * wide_m, -0.075, low_m),
+                   Vector3d(middle_m + 0.5 * wide_m, -0.075, low_m + tall_m),
+                   Vector3d(middle_m - 0.5 * wide_m, -0.075, low_m + tall_m)},
                   -Vector3d::UnitY(), color(trade.letters),
                   static_cast<std::size_t>(&trade - kTrades.data()));
   }
 
   void add_awning(double from, double to, double top_m, const Trade& trade) {
     constexpr double kDeepM = 1.15;
-    constexpr double kFallM = 0.42;
-    constexpr double kHemM = 0.2;
+    constexpr double kFallM = 0.26;
+    constexpr double kHemM = 0.11;
     const Vector3d paint = 0.5 * color(trade.board) + 0.5 * Vector3d(0.30, 0.28, 0.25);
     const bool is_striped = random_.uniform() < 0.5;
     const int stripes = is_striped ? std::max(2, static_cast<int>((to - from) / 0.35)) : 1;

@@ -85,7 +85,8 @@ class RoofDetails {
       if (!slope || slope->height_m < 1.8) continue;
       const bool is_upper = surface.corners[0].z() > model_.roof.eaves_m + 0.5;
       const bool faces_south = slope->out.y() < -0.2;
-      if (is_lived_in && !is_upper && (dormers < 0.6 || slope->out.z() < 0.45)) {
+      if (is_lived_in && !is_upper && slope->out.z() < 0.83 &&
+          (dormers < 0.6 || slope->out.z() < 0.45)) {
         add_dormers(*slope);
       } else if (faces_south && solar < 0.35) {
         add_solar(*slope);
@@ -263,40 +264,52 @@ class RoofDetails {
     }
   }
 
+  /// Dormers with gables of their own in a row above the eaves.
   void add_dormers(const Slope& slope) {
-    constexpr double kHalfM = 0.65;
-    constexpr double kTallM = 1.35;
+    constexpr double kHalfM = 0.7;
+    constexpr double kTallM = 1.05;
+    constexpr double kGableM = 0.55;
     constexpr double kApartM = 3.6;
-    // Its front stands upright above the slope, its roof runs back into it.
-    const double low_m = std::min(0.9, 0.25 * slope.height_m);
     const double rise = slope.up.z();
-    const double run = std::sqrt(std::max(0.0, 1 - rise * rise));
-    const double top_m = low_m + (kTallM + 0.15) / std::max(rise, 0.3);
-    const Vector3d roof_paint = 0.7 * model_.look.roof_paint.matrix().cast<double>();
+    const double steepness = rise / slope.out.z();  // height gained per meter inwards
+    const double low_m = std::min(0.9, 0.2 * slope.height_m);
+    const double top_m = low_m + (kTallM + kGableM) / rise;
+    const Vector3d inward(-slope.along.y(), slope.along.x(), 0);
+    const Vector3d front = 0.9 * paints::kStone;
+    const Vector3d roof = model_.look.roof_paint.matrix().cast<double>();
     const int count = static_cast<int>(slope.length_m / kApartM);
     for (int i = 0; i < count; ++i) {
       const double middle_m = slope.length_m * (i + 0.5) / count;
       if (!slope.holds(middle_m - kHalfM, middle_m + kHalfM, low_m, top_m)) continue;
-      const double back_m = (top_m - low_m) * run;  // level, from the front to where the roof ends
       const auto at = [&](double x, double up_m, double in_m) -> Vector3d {
-        const Vector3d inward(-slope.along.y(), slope.along.x(), 0);
         return slope.at(middle_m + x, low_m, 0) + up_m * Vector3d::UnitZ() + in_m * inward;
       };
-      const Vector3d paint = 0.9 * paints::kStone;
-      const double drop_m = kTallM;
-      quad(at(-kHalfM, 0, 0), at(kHalfM, 0, 0), at(kHalfM, drop_m, 0), at(-kHalfM, drop_m, 0),
-           paint);
-      quad(at(-0.75 * kHalfM, 0.2, -0.02), at(0.75 * kHalfM, 0.2, -0.02),
-           at(0.75 * kHalfM, drop_m - 0.12, -0.02), at(-0.75 * kHalfM, drop_m - 0.12, -0.02),
+      const double cheek_m = kTallM / steepness;  // where the walls end in the slope
+      const double ridge_m = (kTallM + kGableM) / steepness;
+      quad(at(-kHalfM, 0, 0), at(kHalfM, 0, 0), at(kHalfM, kTallM, 0), at(-kHalfM, kTallM, 0),
+           front);
+      quad(at(-kHalfM, kTallM, 0), at(kHalfM, kTallM, 0), at(0, kTallM + kGableM, 0),
+           at(0, kTallM + kGableM, 0), front);
+      quad(at(-0.6 * kHalfM, 0.15, -0.02), at(0.6 * kHalfM, 0.15, -0.02),
+           at(0.6 * kHalfM, kTallM - 0.05, -0.02), at(-0.6 * kHalfM, kTallM - 0.05, -0.02),
            paints::kPane, Finish::lit_glass);
-      const double cheek_m = drop_m / std::max(rise, 0.3) * run;
-      quad(at(kHalfM, 0, 0), at(kHalfM, drop_m, cheek_m), at(kHalfM, drop_m, cheek_m),
-           at(kHalfM, drop_m, 0), 0.8 * paint);
-      quad(at(-kHalfM, drop_m, 0), at(-kHalfM, drop_m, cheek_m), at(-kHalfM, drop_m, cheek_m),
-           at(-kHalfM, 0, 0), 0.8 * paint);
-      const double over_m = kHalfM + 0.12;
-      quad(at(-over_m, drop_m, -0.15), at(over_m, drop_m, -0.15), at(over_m, drop_m + 0.15, back_m),
-           at(-over_m, drop_m + 0.15, back_m), roof_paint);
+      for (const double side : {-1.0, 1.0}) {
+        const double x = side * kHalfM;
+        const std::array<Vector3d, 3> cheek = {at(x, 0, 0), at(x, kTallM, cheek_m),
+                                               at(x, kTallM, 0)};
+        const std::size_t second = side > 0 ? 1 : 2;
+        quad(cheek[0], cheek[second], cheek[3 - second], cheek[3 - second], 0.8 * front);
+        const double over_m = side * (kHalfM + 0.12);
+        const double eaves_m = kTallM - 0.12 * kGableM / kHalfM;
+        const std::array<Vector3d, 4> cloth = {
+            at(over_m, eaves_m, -0.15), at(over_m, eaves_m, cheek_m),
+            at(0, kTallM + kGableM, ridge_m), at(0, kTallM + kGableM, -0.15)};
+        if (side > 0) {
+          quad(cloth[0], cloth[1], cloth[2], cloth[3], roof);
+        } else {
+          quad(cloth[3], cloth[2], cloth[1], cloth[0], roof);
+        }
+      }
     }
   }
 

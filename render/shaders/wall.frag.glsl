@@ -110,7 +110,17 @@ void add_window(inout Surface s, Window w, ivec2 cell, vec2 p, vec2 width) {
   if (w.is_shop) {
     // Goods stand further back, and hide each other as one passes.
     vec2 goods = p + 0.7 * slope_in(normalize(light.eye.xyz - world));
-    inside = shop_display(cell, vec2(goods.x, max(goods.y, 0.02)), width);
+    goods.y = max(goods.y, 0.02);
+    float trade = hash(cell / ivec2(2, 1) + 409);
+    // Shelves, a dim room with lamps and tables, or figures before a bright wall.
+    float lamp = smoothstep(0.25, 0.0, length(vec2(fract(goods.x * 0.8) - 0.5, goods.y - 1.9)));
+    float table = band(fract(goods.x * 0.55), 0.2, 0.8, width.x) * band(goods.y, 0.62, 0.72, width.y);
+    vec3 dim = vec3(0.035, 0.028, 0.022) + vec3(0.30, 0.22, 0.11) * lamp + vec3(0.12, 0.07, 0.04) * table;
+    float figure = smoothstep(0.26, 0.2, length(vec2(fract(goods.x * 1.1) - 0.5, 0.55 * (goods.y - 0.85)) /
+                                                vec2(0.7, 1.0)));
+    vec3 dress = vec3(0.3) * vec3(fract(trade * 91.0), fract(trade * 57.0), fract(trade * 33.0));
+    vec3 bright = mix(vec3(0.20, 0.19, 0.175), dress, figure);
+    inside = trade < 0.45 ? shop_display(cell, goods, width) : trade < 0.7 ? dim : bright;
   }
   vec3 frame = vec3(w.frame) * (w.frame > 0.3 ? vec3(1.0, 0.98, 0.94) : vec3(1.0));
   s.albedo = mix(s.albedo, 0.75 * s.albedo, opening);
@@ -195,14 +205,6 @@ vec3 mirrored_in_glass(float plain, float tilt) {
   float along = there.x * -normal.y + there.y * normal.x;
   float block = hash(ivec2(int(floor(along / 13.0)), int(floor(dot(world, normal) / 30.0))));
   vec3 seen = there.z < 7.0 + 9.0 * block ? opposite_house(vec2(along, there.z), block, sky) : sky;
-  // Trees before them, in rows with gaps.
-  const float kApartM = 6.5;
-  float shift = along / kApartM + 0.7 * block;
-  vec2 from_heart = vec2((fract(shift) - 0.5) * kApartM, there.z - 4.2 - block);
-  float bumps = 0.2 * sin(5.1 * there.z + 2.0 * along) + 0.2 * sin(4.3 * along) * sin(2.3 * there.z);
-  float crown = 0.8 * smoothstep(1.1, 0.85, length(from_heart * vec2(0.5, 0.42)) + 0.5 * bumps);
-  vec3 leaves = vec3(0.07, 0.095, 0.04) * (light.sky.rgb + 0.5 * light.sun.rgb);
-  seen = mix(seen, leaves * (1.0 + 1.2 * bumps), crown * step(hash(ivec2(int(floor(shift)), 77)), 0.6));
   seen = there.z < 0.0 ? 0.8 * light.bounce.rgb : seen;
   return seen * (plain + (1.0 - plain) * pow(1.0 - max(dot(to_eye, normal), 0.0), 5.0));
 }

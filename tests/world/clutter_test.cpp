@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include "base/geometry/polygon.h"
 #include "world/scenario.h"
@@ -106,6 +107,16 @@ TEST(Clutter, StandsWhereNobodyWalks) {
         EXPECT_FALSE(geometry::touch(prop_footprint(scenario.props[k]), corners));
       }
     }
+  }
+}
+
+TEST(Clutter, LeavesPitchesEmpty) {
+  Scenario scenario = court();
+  scenario.markings.push_back({"line", {-40, 50}, {40, 50}, 0.1});
+  strew({.seed = 4, .density = 1}, scenario);
+  const std::vector<Eigen::Vector2d>& lawn = scenario.areas[1].corners;
+  for (const Prop& prop : scenario.props) {
+    EXPECT_GT(geometry::signed_distance_to(lawn, prop.position), 0);
   }
 }
 

@@ -29,6 +29,7 @@ export interface Kind {
 const kDoing: FieldSpec = { key: "doing", label: "Doing", type: "choice", choices: ["stroll", "wait", "cross", "leave"], isRequired: true };
 const number = (key: string, label: string, unit = "", usual = ""): FieldSpec => ({ key, label, type: "number", unit, usual });
 const kId: FieldSpec = { key: "id", label: "Id", type: "text", isRequired: true };
+const kFacades = ["plaster", "brick", "historic", "modern", "concrete", "warehouse", "glass", "hedge", "screen"];
 const kRoofKinds = ["flat", "gabled", "hipped", "half_hipped", "mansard", "shed", "sawtooth", "pyramid", "dome"];
 const kCoverings = ["gravel", "tiles", "slate", "metal", "grass", "felt"];
 const kPropKinds = [
@@ -119,7 +120,7 @@ export const kKinds: Kind[] = [
     fields: [
       kId,
       { ...number("height_m", "Height", "m"), isRequired: true },
-      { key: "facade", label: "Facade", type: "choice", choices: ["plaster", "brick", "historic", "modern", "concrete", "warehouse", "glass", "hedge", "screen"], usual: "by number" },
+      { key: "facade", label: "Facade", type: "choice", choices: kFacades, usual: "by number" },
       { key: "color", label: "Color", type: "text", usual: "#rrggbb" },
       { key: "roof/kind", label: "Roof", type: "choice", choices: kRoofKinds, usual: "by number" },
       { key: "roof/material", label: "Roof of", type: "choice", choices: kCoverings, usual: "by kind" },
