@@ -20,11 +20,12 @@ enum class Facade : std::uint8_t {
   brick = 2,
   glass = 3,
   hedge = 8,
-  screen = 9,     ///< a wall of lights that shows moving images
-  historic = 10,  ///< stucco with framed windows, as around 1890
-  modern = 11,    ///< smooth render with wide windows
-  concrete = 12,  ///< slabs with joints
-  warehouse = 13  ///< brick with large windows of many panes
+  screen = 9,      ///< a wall of lights that shows moving images
+  historic = 10,   ///< stucco with framed windows, as around 1890
+  modern = 11,     ///< smooth render with wide windows
+  concrete = 12,   ///< slabs with joints
+  warehouse = 13,  ///< brick with large windows of many panes
+  blank = 15       ///< plaster without windows or anything on it
 };
 
 /// Shape of a roof. by_id: a seed chooses among those that suit the building.

@@ -31,8 +31,8 @@ class FreeGround {
   void add(std::span<const Eigen::Vector2d> corners);
   void add_exit(const Exit& exit);
   /// The first and the last bucket in which a polygon lies.
-  static std::pair<Eigen::Vector2i, Eigen::Vector2i> buckets(
-      std::span<const Eigen::Vector2d> corners);
+  std::pair<Eigen::Vector2i, Eigen::Vector2i> buckets(
+      std::span<const Eigen::Vector2d> corners) const;
 
   const Scenario& scenario_;
   std::vector<std::vector<Eigen::Vector2d>> taken_;

@@ -53,7 +53,7 @@ const std::array<PropType, kPropKinds>& prop_types() {
       {"cabinet", {0.5, 0.2}, 1.35, C::street_furniture},
       {"phone_booth", {0.5, 0.5}, 2.45, C::street_furniture},
       {"vending_machine", {0.5, 0.42}, 1.95, C::street_furniture},
-      {"wheelie_bin", {0.3, 0.38}, 1.15, C::bin},
+      {"wheelie_bin", {0.3, 0.4}, 1.15, C::bin},
       {"wheelie_bins", {1, 0.4}, 1.15, C::bin},
       {"recycling_container", {0.9, 0.7}, 1.75, C::bin},
       {"skip", {1.8, 0.9}, 1.5, C::construction},

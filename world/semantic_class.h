@@ -18,7 +18,7 @@ enum class SemanticClass : std::uint8_t {
   person = 4,    ///< with clothes and carried objects
   umbrella = 5,
   drone = 6,
-  roof = 7,  ///< with structures on it
+  roof = 7,  ///< with structures on it, and upper faces of details
   door = 8,  ///< of an exit
   wall = 9,  ///< lower than a story
   hedge = 10,

@@ -239,7 +239,9 @@ double extent_m(std::span<const Eigen::Vector2d> footprint, const Eigen::Vector2
 }
 
 bool has_stories(const world::Building& building) {
-  if (building.facade == Facade::hedge || building.facade == Facade::screen) return false;
+  for (const Facade without : {Facade::hedge, Facade::screen, Facade::blank}) {
+    if (building.facade == without) return false;
+  }
   return building.height_m >= kMinStoryM || building.facade == Facade::glass;
 }
 

@@ -36,7 +36,7 @@ Eigen::Vector2d main_direction(std::span<const Eigen::Vector2d> footprint);
 /// How far a footprint reaches in a direction (m).
 double extent_m(std::span<const Eigen::Vector2d> footprint, const Eigen::Vector2d& direction);
 
-/// Whether a facade has stories with windows: no hedge, screen or low wall.
+/// Whether a facade has stories with windows: no hedge, screen, blank or low wall.
 bool has_stories(const world::Building& building);
 
 }  // namespace throng::render

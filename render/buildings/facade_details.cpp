@@ -326,7 +326,7 @@ void append(const PropMesh& part, PropMesh& whole) {
 }  // namespace
 
 PropMesh facade_details(const BuildingModel& model, const world::Scenario& scenario,
-                        std::uint32_t id) {
+                        std::uint32_t id, std::uint32_t top_id) {
   PropMesh mesh;
   if (!has_stories(model.building) || model.look.facade == Facade::glass) return mesh;
   const auto add = [&](auto part) {
@@ -339,6 +339,11 @@ PropMesh facade_details(const BuildingModel& model, const world::Scenario& scena
   add(&FrontDetails::add_large);
   mesh.far_indices = mesh.indices.size();
   add(&FrontDetails::add_small);
+  for (PropVertex& vertex : mesh.vertices) {
+    constexpr float kUp = 0.5F;
+    constexpr float kAboveStepsM = 1.6F;
+    if (vertex.normal[2] > kUp && vertex.position[2] > kAboveStepsM) vertex.id = top_id;
+  }
   return mesh;
 }
 

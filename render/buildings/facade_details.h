@@ -11,8 +11,9 @@
 
 namespace throng::render {
 
-/// The details of a building's fronts, with this id. Ground floors beside exits have none.
+/// The details of a building's fronts, with this id; what faces up, as awnings and ledges do, has
+/// `top_id`. Ground floors beside exits have none.
 PropMesh facade_details(const BuildingModel& model, const world::Scenario& scenario,
-                        std::uint32_t id);
+                        std::uint32_t id, std::uint32_t top_id);
 
 }  // namespace throng::render

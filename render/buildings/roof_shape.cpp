@@ -322,9 +322,7 @@ RoofShape flat_roof(const world::Building& building, bool has_parapet) {
 
 RoofShape roof_shape(const world::Building& building, const BuildingLook& look) {
   constexpr double kMinParapetM = 5;  // of height
-  const bool is_hedge_or_screen =
-      building.facade == world::Facade::hedge || building.facade == world::Facade::screen;
-  const bool has_parapet = !is_hedge_or_screen && building.height_m >= kMinParapetM;
+  const bool has_parapet = has_stories(building) && building.height_m >= kMinParapetM;
   if (look.roof == RoofKind::flat) return flat_roof(building, has_parapet);
   if (look.roof == RoofKind::sawtooth && building.footprint.size() == 4 &&
       is_convex(building.footprint)) {

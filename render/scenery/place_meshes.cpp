@@ -47,7 +47,9 @@ void add_building_details(const world::Scenario& scenario, bool semantic,
     const bool is_near = std::any_of(footprint.begin(), footprint.end(), [&](const auto& corner) {
       return (scenario.inside.bounds.nearest_point(corner, 0) - corner).norm() < kFrontsWithinM;
     });
-    if (is_near) add(facade_details(model, scenario, id_of(world::SemanticClass::building)));
+    if (!is_near) continue;
+    add(facade_details(model, scenario, id_of(world::SemanticClass::building),
+                       id_of(world::SemanticClass::roof)));
   }
 }
 

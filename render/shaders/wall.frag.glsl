@@ -340,6 +340,11 @@ Surface facade(vec2 p, vec2 size, uint building) {
   if (kind == 9) return screen(p, size);
   if (kind == 4 || kind == 5) return exit_door(p, size, kind == 4);
   if (kind == 14) return glazing(p, size);
+  if (kind == 15) {
+    Surface blank = dull();
+    blank.albedo = wall_albedo(p, width, false);
+    return blank;
+  }
   vec4 trims = kFacadeTrims[kind];
   bool brick = trims.z > 0.5 || kind == 7;
   if (kind == 6 || kind == 7) {

@@ -16,6 +16,8 @@ from throng import Dataset, DatasetError, merge, tables
 from throng.annotations import Annotations
 
 
+CATEGORIES = {1: "person", 2: "drone", 3: "car", 4: "train", 5: "van", 6: "truck", 7: "bus", 8: "motorcycle"}
+
 class Reading(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -48,7 +50,7 @@ class Reading(unittest.TestCase):
                 self.assertEqual([frame.id for frame in dataset], [image["id"] for image in self.coco["images"]])
                 self.assertEqual(sorted(dataset.runs), ["run000", "run001"])
                 self.assertEqual(sorted(dataset.cameras), ["d1", "d2", "d3"])
-                self.assertEqual(dataset.categories, {1: "person", 2: "drone", 3: "car", 4: "train"})
+                self.assertEqual(dataset.categories, CATEGORIES)
                 self.assertEqual(
                     {k: v.runs for k, v in dataset.splits.items()}, {"train": ["run000"], "val": ["run001"]}
                 )

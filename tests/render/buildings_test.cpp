@@ -208,7 +208,7 @@ TEST(FacadeDetails, KeepClearOfPeopleAndOfExits) {
   for (std::uint32_t number = 0; number < 60; ++number) {
     world::Building building = house(kBox, RoofKind::gabled);
     building.facade = world::Facade::by_id;
-    const PropMesh mesh = facade_details(building_model(building, number), scenario, 9);
+    const PropMesh mesh = facade_details(building_model(building, number), scenario, 9, 9);
     total += mesh.indices.size() / 3;
     for (const PropVertex& vertex : mesh.vertices) {
       const Vector2d at(vertex.position[0], vertex.position[1]);

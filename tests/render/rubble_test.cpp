@@ -95,7 +95,9 @@ TEST(Rubble, OfTwoCollapsesHasAnIdEachAfterThoseOfTheProps) {
 TEST(LowWalls, HaveNeitherLampsNorMachinesOnTop) {
   for (const auto& [height_m, is_house] : {std::pair(0.1, false), {1.4, false}, {5.0, true}}) {
     const world::Scenario scenario = open_ground({block(5, 25, -10, 10, height_m)});
-    const BuildingModel model = building_model(scenario.buildings[0], 0);
+    world::Building building = scenario.buildings[0];
+    building.facade = world::Facade::by_id;
+    const BuildingModel model = building_model(building, 0);
     EXPECT_EQ(roof_details(model, 1).vertices.empty(), !is_house) << height_m;
     EXPECT_EQ(wall_lamps(scenario).empty(), !is_house) << height_m;
   }

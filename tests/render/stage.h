@@ -10,13 +10,14 @@
 
 namespace throng::render {
 
-/// A building with an axis-aligned footprint.
+/// A building with an axis-aligned footprint and nothing on it.
 inline world::Building block(double min_x, double max_x, double min_y, double max_y,
                              double height_m) {
   world::Building building;
   building.id = "block";
   building.footprint = {{min_x, min_y}, {max_x, min_y}, {max_x, max_y}, {min_x, max_y}};
   building.height_m = height_m;
+  building.facade = world::Facade::blank;
   return building;
 }
 

@@ -31,6 +31,7 @@ namespace {
 constexpr double kMinScale = 0.2;
 constexpr double kMaxScale = 5;
 constexpr int kMaxScattered = 2000;
+constexpr double kMaxStrewnM = 6000;  // of ground
 
 /// Whether the convex outlines share a point (separating axes).
 bool overlap(std::span<const Eigen::Vector2d> a, std::span<const Eigen::Vector2d> b) {
@@ -261,7 +262,15 @@ fields::Values clutter_values() { return fields::object_with(clutter_fields().sc
 void strew_clutter(Scenario& scenario, const json& value, const FieldLocation& place) {
   Clutter clutter;
   clutter_fields().read_checked(value, clutter, place);
-  if (!place.has_problem()) strew(clutter, scenario);
+  // It stands beside all that the other fields say.
+  if (!place.problems.empty()) return;
+  const Eigen::Vector2d size = scenario.ground.max - scenario.ground.min;
+  if (size.maxCoeff() > kMaxStrewnM) {
+    place.reject(fmt::format("clutter on a ground of {:.0f} m by {:.0f} m", size.x(), size.y()),
+                 fmt::format("a ground of at most {} m by {} m", kMaxStrewnM, kMaxStrewnM));
+    return;
+  }
+  strew(clutter, scenario);
 }
 
 void scatter_props(Scenario& scenario, const json& list, const FieldLocation& place) {

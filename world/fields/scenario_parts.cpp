@@ -33,15 +33,16 @@ constexpr double kMaxMeshScale = 1e4;
 template <typename Value>
 using Word = std::pair<const char*, Value>;
 
-constexpr std::array<Word<Facade>, 9> kFacades = {{{"plaster", Facade::plaster},
-                                                   {"brick", Facade::brick},
-                                                   {"glass", Facade::glass},
-                                                   {"hedge", Facade::hedge},
-                                                   {"screen", Facade::screen},
-                                                   {"historic", Facade::historic},
-                                                   {"modern", Facade::modern},
-                                                   {"concrete", Facade::concrete},
-                                                   {"warehouse", Facade::warehouse}}};
+constexpr std::array<Word<Facade>, 10> kFacades = {{{"plaster", Facade::plaster},
+                                                    {"brick", Facade::brick},
+                                                    {"glass", Facade::glass},
+                                                    {"hedge", Facade::hedge},
+                                                    {"screen", Facade::screen},
+                                                    {"historic", Facade::historic},
+                                                    {"modern", Facade::modern},
+                                                    {"concrete", Facade::concrete},
+                                                    {"warehouse", Facade::warehouse},
+                                                    {"blank", Facade::blank}}};
 
 constexpr std::array<Word<RoofKind>, 9> kRoofKinds = {{{"flat", RoofKind::flat},
                                                        {"gabled", RoofKind::gabled},

@@ -29,7 +29,7 @@ export interface Kind {
 const kDoing: FieldSpec = { key: "doing", label: "Doing", type: "choice", choices: ["stroll", "wait", "cross", "leave"], isRequired: true };
 const number = (key: string, label: string, unit = "", usual = ""): FieldSpec => ({ key, label, type: "number", unit, usual });
 const kId: FieldSpec = { key: "id", label: "Id", type: "text", isRequired: true };
-const kFacades = ["plaster", "brick", "historic", "modern", "concrete", "warehouse", "glass", "hedge", "screen"];
+const kFacades = ["plaster", "brick", "historic", "modern", "concrete", "warehouse", "glass", "blank", "hedge", "screen"];
 const kRoofKinds = ["flat", "gabled", "hipped", "half_hipped", "mansard", "shed", "sawtooth", "pyramid", "dome"];
 const kCoverings = ["gravel", "tiles", "slate", "metal", "grass", "felt"];
 const kPropKinds = [
