@@ -49,7 +49,7 @@ TEST_P(ShapeFile, StandsUprightOnTheGroundThatItsKindCovers) {
     EXPECT_GE(box.min().z(), -kFootM);
     EXPECT_LE(box.min().z(), 0.95);
     EXPECT_LE(box.max().z(), type.height_m + kRoundingM);
-    EXPECT_GE(box.max().z(), 0.45 * type.height_m) << "benches without a back are low";
+    EXPECT_GE(box.max().z(), 0.3 * type.height_m) << "backs and parasols are there by chance";
     EXPECT_GT(mesh.indices.size(), 0U);
     EXPECT_LE(mesh.far_indices, mesh.indices.size());
     EXPECT_LE(mesh.indices.size() / 3, kMaxTriangles);
