@@ -24,7 +24,7 @@ constexpr double kOffCrossingsM = 2.5;  // so that drivers see who crosses
 
 std::int64_t key(int x, int y) { return (std::int64_t{x} << 32) + y; }
 
-std::array<Vector2d, 4> widened(Prop prop, double by_m) {
+std::array<Vector2d, 4> widened(const Prop& prop, double by_m) {
   const Vector2d half = prop.scale * prop_type(prop.kind).half_size + Vector2d::Constant(by_m);
   return geometry::turned_rectangle(prop.position, half, prop.yaw_rad);
 }

@@ -288,11 +288,10 @@ RoofShape flat_roof(const world::Building& building, bool has_parapet) {
   }
   if (strips.empty() || last_moment_m(strips) < 3 * kThickM) {
     for (const auto& triangle : geometry::triangulate(building.footprint)) {
-      std::vector<Vector3d> corners;
-      for (const std::uint32_t i : triangle) {
-        corners.emplace_back(building.footprint[i].x(), building.footprint[i].y(), top_m);
-      }
-      shaper.add(RoofPart::covering, 0, corners);
+      const auto at = [&](std::uint32_t i) {
+        return Vector3d(building.footprint[i].x(), building.footprint[i].y(), top_m);
+      };
+      shaper.add(RoofPart::covering, 0, {at(triangle[0]), at(triangle[1]), at(triangle[2])});
     }
     return shape;
   }

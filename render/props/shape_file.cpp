@@ -17,7 +17,7 @@
 #include "render/props/plants.h"
 
 namespace throng::embedded {
-extern const std::string_view prop_shapes;
+extern const std::string_view prop_shapes;  // NOLINT(readability-identifier-naming): a file
 }  // namespace throng::embedded
 
 namespace throng::render {

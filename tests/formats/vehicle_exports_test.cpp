@@ -88,7 +88,7 @@ TEST(VehicleExports, YoloAndVocHaveClassesAfterPeoples) {
             "1 0.500000 0.687500 0.200000 0.125000\n"
             "2 0.150000 0.175000 0.300000 0.100000\n");
   EXPECT_THAT(yolo.text("data.yaml"),
-              HasSubstr("nc: 3\nnames:\n  0: \"person\"\n  1: \"car\"\n  2: \"train\"\n"));
+              HasSubstr("nc: 7\nnames:\n  0: \"person\"\n  1: \"car\"\n  2: \"train\"\n"));
   const StreetExport voc("voc");
   const std::string xml = voc.text("Annotations/run002-d1-000004.xml");
   EXPECT_THAT(xml, HasSubstr("<name>car</name>"));
@@ -97,7 +97,7 @@ TEST(VehicleExports, YoloAndVocHaveClassesAfterPeoples) {
 
 TEST(VehicleExports, CocoHasCategoriesAfterPeoples) {
   const json coco = json::parse(StreetExport("coco").text("annotations/instances_train.json"));
-  ASSERT_EQ(coco["categories"].size(), 3);
+  ASSERT_EQ(coco["categories"].size(), 7);
   EXPECT_EQ(coco["categories"][1]["name"], "car");
   EXPECT_EQ(coco["categories"][2]["name"], "train");
   ASSERT_EQ(coco["annotations"].size(), 4);
@@ -118,9 +118,17 @@ TEST(VehicleExports, CardCountsThem) {
   card.add(image);
   card.finish();
   const json dataset = json::parse(out.text("dataset.json"));
-  EXPECT_EQ(dataset["classes"],
-            json({{"1", "person"}, {"2", "drone"}, {"3", "car"}, {"4", "train"}}));
-  EXPECT_EQ(dataset["statistics"]["annotations_of_vehicles"], json({{"car", 2}, {"train", 1}}));
+  EXPECT_EQ(dataset["classes"], json({{"1", "person"},
+                                      {"2", "drone"},
+                                      {"3", "car"},
+                                      {"4", "train"},
+                                      {"5", "van"},
+                                      {"6", "truck"},
+                                      {"7", "bus"},
+                                      {"8", "motorcycle"}}));
+  EXPECT_EQ(
+      dataset["statistics"]["annotations_of_vehicles"],
+      json({{"car", 2}, {"train", 1}, {"van", 0}, {"truck", 0}, {"bus", 0}, {"motorcycle", 0}}));
 }
 
 }  // namespace

@@ -86,9 +86,9 @@ void add_choice(FieldTable<Object>& table, const char* name, const Words& words,
 
 Paint paint_from_hex(const std::string& text) {
   Paint paint;
-  for (int i = 0; i < 3; ++i) {
-    const auto byte = std::stoi(text.substr(static_cast<std::size_t>(1 + 2 * i), 2), nullptr, 16);
-    paint[i] = linear_from_srgb(static_cast<std::uint8_t>(byte));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto byte = std::stoi(text.substr(1 + 2 * i, 2), nullptr, 16);
+    paint[static_cast<Eigen::Index>(i)] = linear_from_srgb(static_cast<std::uint8_t>(byte));
   }
   return paint;
 }
