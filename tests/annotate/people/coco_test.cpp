@@ -335,7 +335,7 @@ TEST_F(Coco, VehiclesHaveCategoriesAndTracksOfTheirOwn) {
   writer.finish();
   merge_coco({folder / "vehicles"}, folder / "coco.json", "a test", {.vehicles = true});
   const json coco = json::parse(read_file(folder / "coco.json"));
-  ASSERT_EQ(coco["categories"].size(), 3);
+  ASSERT_EQ(coco["categories"].size(), 7);
   EXPECT_EQ(coco["categories"][1]["name"], "car");
   EXPECT_EQ(coco["categories"][2]["name"], "train");
   EXPECT_EQ(coco["images"][0]["counts"]["vehicles"], 1);
