@@ -66,7 +66,7 @@ void FreeGround::add_exit(const Exit& exit) {
 
 std::pair<Vector2i, Vector2i> FreeGround::buckets(std::span<const Vector2d> corners) const {
   const Rectangle box = geometry::bounding_box(corners);
-  // Nothing is strewn beyond the ground.
+  // Nothing is scattered beyond the ground.
   const Vector2d low = box.min.cwiseMax(scenario_.ground.min).cwiseMin(scenario_.ground.max);
   const Vector2d high = box.max.cwiseMin(scenario_.ground.max).cwiseMax(scenario_.ground.min);
   return {(low / kBucketM).array().floor().cast<int>(),

@@ -32,10 +32,10 @@ Array3f paint(const SceneryVertex& vertex) {
 
 RaySurface ground_surface(std::string_view material) {
   static const std::array<std::pair<std::string_view, Array3f>, 11> kMeans = {{
-      {"pavers", {0.340F, 0.319F, 0.289F}},
+      {"pavers", {0.292F, 0.274F, 0.249F}},
       {"asphalt", {0.168F, 0.166F, 0.163F}},
       {"grass", {0.118F, 0.140F, 0.053F}},
-      {"concrete", {0.410F, 0.400F, 0.375F}},
+      {"concrete", {0.351F, 0.343F, 0.321F}},
       {"dirt", {0.257F, 0.201F, 0.133F}},
       {"kerb", {0.450F, 0.445F, 0.430F}},
       {"paint", {0.490F, 0.490F, 0.466F}},

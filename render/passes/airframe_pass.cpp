@@ -18,9 +18,7 @@ void AirframePass::prepare() {
   indices_ = make_buffer();
   array_ = make_prop_array(vertices_, indices_);
   program_ =
-      make_program({embedded::shader_view, embedded::shader_prop_vert},
-                   {words_, has_shadows_ ? "" : "#define NO_SHADOWS\n", embedded::shader_light,
-                    embedded::shader_noise, embedded::shader_screen, embedded::shader_prop_frag});
+      make_prop_program(PropSurface::shiny, words_ + (has_shadows_ ? "" : "#define NO_SHADOWS\n"));
   check_gl("loading drones");
 }
 

@@ -1,9 +1,11 @@
 #include "render/passes/prop_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <functional>
+#include <string>
 
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
@@ -24,18 +26,40 @@ constexpr GLuint kLeafUnit = 5;  // also in shaders/prop.frag.glsl
 /// Props that are farther from the camera are drawn without details.
 constexpr double kDetailsM = 55;
 
-/// Appends the triangles of one kind, solid or leaves, of the first indices of a mesh, or of those
-/// after them, whose vertices start at `base`.
-Range append(const PropMesh& mesh, std::size_t from, std::size_t to, bool leaves,
-             std::uint32_t base, std::vector<std::uint32_t>& indices) {
-  const auto first = static_cast<std::uint32_t>(indices.size());
-  for (std::size_t i = from; i < to; i += 3) {
-    const bool is_leaf =
-        mesh.vertices[mesh.indices[i]].paint[3] == static_cast<std::uint8_t>(Finish::leaves);
-    if (is_leaf != leaves) continue;
-    for (std::size_t k = i; k < i + 3; ++k) indices.push_back(base + mesh.indices[k]);
+PropSurface choose_surface(Finish finish) {
+  switch (finish) {
+    case Finish::glossy:
+    case Finish::lit_glass:
+      return PropSurface::shiny;
+    case Finish::bark:
+      return PropSurface::bark;
+    case Finish::water:
+      return PropSurface::water;
+    case Finish::screen:
+      return PropSurface::screen;
+    default:
+      return PropSurface::plain;
   }
-  return {first, static_cast<std::uint32_t>(indices.size()) - first};
+}
+
+/// The triangles of a mesh that share a program: those for any distance, then the details.
+struct Triangles {
+  std::vector<std::uint32_t> indices;
+  std::size_t far_count = 0;
+};
+
+/// The triangles of a mesh whose vertices start at `base`, by PropSurface; leaves come last.
+std::array<Triangles, kPropSurfaces + 1> sort_triangles(const PropMesh& mesh, std::uint32_t base) {
+  std::array<Triangles, kPropSurfaces + 1> sorted;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const auto finish = static_cast<Finish>(mesh.vertices[mesh.indices[i]].paint[3]);
+    Triangles& triangles = finish == Finish::leaves
+                               ? sorted.back()
+                               : sorted.at(static_cast<std::size_t>(choose_surface(finish)));
+    for (std::size_t k = i; k < i + 3; ++k) triangles.indices.push_back(base + mesh.indices[k]);
+    if (i < mesh.far_indices) triangles.far_count = triangles.indices.size();
+  }
+  return sorted;
 }
 
 Texture make_leaf_sprites() {
@@ -74,17 +98,33 @@ void PropPass::add(const PlacedProp& prop, std::vector<PropVertex>& vertices,
   item.box = bounds;
   item.middle = bounds.center();
   item.radius_m = 0.5 * bounds.diagonal().norm();
-  const std::size_t count = mesh.indices.size();
-  const std::size_t far_count = std::min(mesh.far_indices, count);
-  item.far_solid = append(mesh, 0, far_count, false, base, indices);
-  const Range details = append(mesh, far_count, count, false, base, indices);
-  item.solid = {item.far_solid.first, item.far_solid.count + details.count};
-  item.leaves = append(mesh, 0, count, true, base, indices);
+  const auto sorted = sort_triangles(mesh, base);
+  const auto append = [&](const Triangles& triangles) {
+    const Range range{static_cast<std::uint32_t>(indices.size()),
+                      static_cast<std::uint32_t>(triangles.indices.size())};
+    indices.insert(indices.end(), triangles.indices.begin(), triangles.indices.end());
+    return range;
+  };
+  for (std::size_t i = 0; i < kPropSurfaces; ++i) {
+    item.solid.at(i) = append(sorted.at(i));
+    item.far_solid.at(i) = {item.solid.at(i).first,
+                            static_cast<std::uint32_t>(sorted.at(i).far_count)};
+  }
+  item.leaves = append(sorted.back());
   item.closed = prop.closed;
   item.casts = prop.casts;
   item.is_backdrop = prop.is_backdrop;
   item.from_s = prop.from_s;
   vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+}
+
+Program make_prop_program(PropSurface surface, std::string_view words) {
+  constexpr std::array<std::string_view, kPropSurfaces> kSurfaceWords = {
+      "", "#define SHINY\n", "#define BARK\n", "#define WATER\n", "#define SCREEN\n"};
+  return make_program(
+      {embedded::shader_view, embedded::shader_prop_vert},
+      {words, kSurfaceWords.at(static_cast<std::size_t>(surface)), shader_light,
+       embedded::shader_noise, embedded::shader_screen, embedded::shader_prop_frag});
 }
 
 VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
@@ -111,9 +151,14 @@ PropPass::PropPass(const std::vector<PlacedProp>& props, std::string_view words,
   array_ = make_prop_array(vertices_, indices_);
   const std::string_view shadows = quality.shadow_texels > 0 ? "" : kNoShadows;
   const std::string_view sun = words.find(kNoSun) == std::string_view::npos ? "" : kNoSun;
-  solid_ = make_program({embedded::shader_view, embedded::shader_prop_vert},
-                        {words, shadows, shader_light, embedded::shader_noise,
-                         embedded::shader_screen, embedded::shader_prop_frag});
+  for (std::size_t i = 0; i < kPropSurfaces; ++i) {
+    if (std::none_of(items_.begin(), items_.end(),
+                     [&](const Item& item) { return item.solid.at(i).count > 0; })) {
+      continue;
+    }
+    solid_.at(i) =
+        make_prop_program(static_cast<PropSurface>(i), std::string(words).append(shadows));
+  }
   leaves_ = make_program(
       {sun, shadows, kLeaves, shader_light, embedded::shader_view, embedded::shader_prop_vert},
       {words, shadows, kLeaves, shader_light, embedded::shader_prop_frag});
@@ -149,16 +194,34 @@ void PropPass::draw_ranges(const Program& program, const std::vector<const Item*
                       static_cast<GLsizei>(counts.size()));
 }
 
+PropPass::SolidPrograms PropPass::solid_programs() const {
+  SolidPrograms programs{};
+  for (std::size_t i = 0; i < kPropSurfaces; ++i) programs.at(i) = &solid_.at(i);
+  return programs;
+}
+
+void PropPass::draw_solid(const SolidPrograms& programs, const std::vector<const Item*>& items,
+                          const Eigen::Vector4d& near) const {
+  for (std::size_t i = 0; i < kPropSurfaces; ++i) {
+    draw_ranges(*programs.at(i), items, [&](const Item& item) {
+      const double distance_m = near.head<3>().dot(item.middle) + near.w();
+      return distance_m > kDetailsM ? item.far_solid.at(i) : item.solid.at(i);
+    });
+  }
+}
+
 void PropPass::draw(const ClipPlanes& planes, double time_s) const {
-  draw_with(solid_, leaves_, planes, time_s);
+  draw_with(solid_programs(), leaves_, planes, time_s);
 }
 
 void PropPass::draw_ids(const ClipPlanes& planes, double time_s) const {
-  draw_with(solid_ids_, leaf_ids_, planes, time_s);
+  SolidPrograms programs{};
+  programs.fill(&solid_ids_);
+  draw_with(programs, leaf_ids_, planes, time_s);
 }
 
-void PropPass::draw_with(const Program& solid, const Program& leaves, const ClipPlanes& planes,
-                         double time_s) const {
+void PropPass::draw_with(const SolidPrograms& solid, const Program& leaves,
+                         const ClipPlanes& planes, double time_s) const {
   std::vector<const Item*> closed;
   std::vector<const Item*> open;
   for (const Item& item : items_) {
@@ -171,15 +234,11 @@ void PropPass::draw_with(const Program& solid, const Program& leaves, const Clip
   std::stable_sort(closed.begin(), closed.end(), [&](const Item* a, const Item* b) {
     return near.head<3>().dot(a->middle) < near.head<3>().dot(b->middle);
   });
-  const auto solid_of = [&](const Item& item) {
-    const double distance_m = near.head<3>().dot(item.middle) + near.w();
-    return distance_m > kDetailsM ? item.far_solid : item.solid;
-  };
   glBindVertexArray(array_.name());
   glEnable(GL_CULL_FACE);
-  draw_ranges(solid, closed, solid_of);
+  draw_solid(solid, closed, near);
   glDisable(GL_CULL_FACE);
-  draw_ranges(solid, open, solid_of);
+  draw_solid(solid, open, near);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
   draw_ranges(leaves, closed, &Item::leaves);
 }
@@ -203,7 +262,7 @@ void PropPass::draw_backdrop(const ClipPlanes& planes) const {
   glDepthMask(GL_TRUE);  // its houses and trees hide each other
   glBindVertexArray(array_.name());
   glEnable(GL_CULL_FACE);
-  draw_ranges(solid_, parts, &Item::solid);
+  draw_solid(solid_programs(), parts, near);
   glDisable(GL_CULL_FACE);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
   draw_ranges(leaves_, parts, &Item::leaves);
@@ -223,7 +282,9 @@ void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2
   if (casters.empty()) return;
   glBindVertexArray(array_.name());
   glDisable(GL_CULL_FACE);
-  draw_ranges(shadow_, casters, &Item::far_solid);
+  for (std::size_t i = 0; i < kPropSurfaces; ++i) {
+    draw_ranges(shadow_, casters, [&](const Item& item) { return item.far_solid.at(i); });
+  }
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
   draw_ranges(leaf_shadow_, casters, &Item::leaves);
 }

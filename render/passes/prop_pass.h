@@ -4,6 +4,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +17,14 @@
 #include "spec/render/quality.h"
 
 namespace throng::render {
+
+/// Surfaces with a program of their own, because a software renderer works out every branch of a
+/// shader for every pixel.
+enum class PropSurface : std::uint8_t { plain, shiny, bark, water, screen };
+inline constexpr std::size_t kPropSurfaces = 5;
+
+/// The fragment shader of a solid surface; `words` are light_words() of the environment and more.
+Program make_prop_program(PropSurface surface, std::string_view words);
 
 /// The vertex array that describes PropVertex in these buffers.
 VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices);
@@ -49,8 +60,8 @@ class PropPass {
     Eigen::AlignedBox3d box;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     double radius_m = 0;
-    Range solid;
-    Range far_solid;  ///< its first part, without details
+    std::array<Range, kPropSurfaces> solid;      ///< by PropSurface
+    std::array<Range, kPropSurfaces> far_solid;  ///< their first parts, without details
     Range leaves;
     bool closed = true;        ///< only its outside is visible
     bool casts = true;         ///< throws a shadow
@@ -60,8 +71,13 @@ class PropPass {
   /// Appends a mesh to `vertices` and `indices`.
   void add(const PlacedProp& prop, std::vector<PropVertex>& vertices,
            std::vector<std::uint32_t>& indices);
-  void draw_with(const Program& solid, const Program& leaves, const ClipPlanes& planes,
+  using SolidPrograms = std::array<const Program*, kPropSurfaces>;
+  void draw_with(const SolidPrograms& solid, const Program& leaves, const ClipPlanes& planes,
                  double time_s) const;
+  /// Draws the solid surfaces of props, with details within kDetailsM of the plane `near`.
+  void draw_solid(const SolidPrograms& programs, const std::vector<const Item*>& items,
+                  const Eigen::Vector4d& near) const;
+  SolidPrograms solid_programs() const;
   /// Parts of the backdrop that may be in view.
   std::vector<const Item*> backdrop_in(const ClipPlanes& planes) const;
   template <typename RangeOf>
@@ -72,7 +88,7 @@ class PropPass {
   Buffer vertices_;
   Buffer indices_;
   VertexArray array_;
-  Program solid_;
+  std::array<Program, kPropSurfaces> solid_;  ///< by PropSurface; none for absent ones
   Program leaves_;
   Program shadow_;
   Program leaf_shadow_;

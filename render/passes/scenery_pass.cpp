@@ -1,14 +1,19 @@
 #include "render/passes/scenery_pass.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
 #include "render/buildings/facade_style.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
+#include "render/ground/ground_decals.h"
 #include "render/ground/ground_texture.h"
 #include "render/scenery/land_pattern.h"
 #include "render/scenery/lighting.h"
@@ -80,6 +85,70 @@ constexpr std::string_view kRoofAlbedo =
     "layout(location = 6) in vec4 paint;\n"
     "vec3 ground_albedo(vec2 p, vec2 width) { return paint.rgb; }\n";
 
+/// Surfaces with programs of their own, because a software renderer works out every branch of a
+/// shader for every pixel: the words of their shaders, in the order of wall_part() and the like.
+constexpr std::array<std::string_view, 5> kWallParts = {"#define STORIES\n",
+                                                        "#define STORIES\n#define SHOPS\n",
+                                                        "#define GLASS\n", "#define PLAIN\n", ""};
+constexpr std::array<std::string_view, 2> kRoofParts = {"", "#define LAPPED\n"};
+constexpr std::array<std::string_view, 3> kDecalParts = {"#define OBJECTS\n", "#define SMALL\n",
+                                                         "#define DARKENS\n"};
+
+std::size_t wall_part(const SceneryVertex& vertex) {
+  const auto kind = static_cast<int>(vertex.facade + 0.5F);
+  const auto is = [&](world::Facade facade) { return kind == static_cast<int>(facade); };
+  if (is(world::Facade::glass)) return 2;
+  if (is(world::Facade::hedge) || is(world::Facade::blank)) return 3;
+  const bool has_style = kind < 3 || (kind > 9 && kind < 14);
+  if (!has_style) return 4;
+  if (vertex.local[3] < static_cast<float>(kMinStoryM)) return 3;
+  return vertex.paint[3] >= 128 ? 1 : 0;
+}
+
+std::size_t roof_part(const SceneryVertex& vertex) {
+  const auto kind = static_cast<world::Covering>(vertex.facade + 0.5F);
+  return kind == world::Covering::tiles || kind == world::Covering::slate ? 1 : 0;
+}
+
+std::size_t decal_part(const SceneryVertex& vertex) {
+  switch (static_cast<DecalKind>(vertex.facade)) {
+    case DecalKind::stain:
+    case DecalKind::tires:
+    case DecalKind::tracks:
+    case DecalKind::wet:
+    case DecalKind::shade:
+      return 2;
+    case DecalKind::leaves:
+    case DecalKind::litter:
+    case DecalKind::gum:
+    case DecalKind::daisies:
+    case DecalKind::weeds:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+/// Brings triangles of a range that belong to one part together; returns the parts' ranges.
+template <std::size_t N>
+std::array<Range, N> split(const std::vector<SceneryVertex>& vertices, const Range& range,
+                           std::size_t (*part_of)(const SceneryVertex&),
+                           std::vector<std::uint32_t>& indices) {
+  std::array<std::vector<std::uint32_t>, N> parts;
+  for (std::size_t i = range.first; i < range.first + range.count; i += 3) {
+    std::vector<std::uint32_t>& part = parts.at(part_of(vertices[indices[i]]));
+    part.insert(part.end(), &indices[i], &indices[i] + 3);
+  }
+  std::array<Range, N> ranges;
+  std::uint32_t first = range.first;
+  for (std::size_t i = 0; i < N; ++i) {
+    ranges.at(i) = {first, static_cast<std::uint32_t>(parts.at(i).size())};
+    std::copy(parts.at(i).begin(), parts.at(i).end(), indices.begin() + first);
+    first += ranges.at(i).count;
+  }
+  return ranges;
+}
+
 Program make_corners_program(std::string_view words, std::string_view material) {
   return make_program({words, shader_view, shader_light, shader_noise, embedded::shader_ground_tile,
                        material, embedded::shader_scenery_corners_vert},
@@ -111,7 +180,6 @@ SceneryPass::SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scena
       decal_range_(meshes.scenery.decals),
       layers_(meshes.layers),
       vertices_(make_buffer(meshes.scenery.vertices)),
-      indices_(make_buffer(meshes.scenery.indices)),
       array_(make_vertex_array()),
       material_(scenario.ground_material),
       shadow_(make_program({shader_light, embedded::shader_scenery_shadow_vert}, {})),
@@ -120,17 +188,30 @@ SceneryPass::SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scena
       light_words(environment, scenario.disasters).append(shadow_words(quality));
   const std::string ground_words =
       words + std::string(environment.sun_elevation_rad < kLowSunRad ? kWideFilter : "");
+  std::vector<std::uint32_t> indices = meshes.scenery.indices;
   if (quality.textured) {
+    const auto add = [&](const auto& part_words, const Range& range, auto part_of,
+                         const std::string& all_words, std::string_view first,
+                         std::string_view second, std::vector<Part>& parts) {
+      const auto ranges = split<std::tuple_size_v<std::decay_t<decltype(part_words)>>>(
+          meshes.scenery.vertices, range, part_of, indices);
+      for (std::size_t i = 0; i < ranges.size(); ++i) {
+        if (ranges.at(i).count == 0) continue;
+        const std::string own = std::string(all_words).append(part_words.at(i));
+        parts.push_back({make_scenery_program(own, first, second), ranges.at(i)});
+      }
+    };
     const std::string wide = words + std::string(kWideFilter);
-    walls_ = make_scenery_program(wide, embedded::shader_screen,
-                                  facade_words() + std::string(embedded::shader_wall_frag));
-    roofs_ = make_scenery_program(wide, embedded::shader_roof_frag);
-    decals_ = make_scenery_program(ground_words + std::string(kDecal), embedded::shader_ground_frag,
-                                   embedded::shader_ground_decals);
+    const std::string wall = facade_words() + std::string(embedded::shader_wall_frag);
+    add(kWallParts, wall_range_, wall_part, wide, embedded::shader_screen, wall, parts_);
+    add(kRoofParts, roof_range_, roof_part, wide, embedded::shader_roof_frag, "", parts_);
+    add(kDecalParts, decal_range_, decal_part, ground_words + std::string(kDecal),
+        embedded::shader_ground_frag, embedded::shader_ground_decals, decals_);
   } else {
-    walls_ = make_corners_program(words, kWallAlbedo);
-    roofs_ = make_corners_program(words, kRoofAlbedo);
+    parts_.push_back({make_corners_program(words, kWallAlbedo), wall_range_});
+    parts_.push_back({make_corners_program(words, kRoofAlbedo), roof_range_});
   }
+  indices_ = make_buffer(indices);
   describe_vertices(array_, 0, vertices_, sizeof(SceneryVertex), 0,
                     {{0, 3, GL_FLOAT, false, offsetof(SceneryVertex, position)},
                      {1, 3, GL_FLOAT, false, offsetof(SceneryVertex, normal)},
@@ -186,14 +267,12 @@ void SceneryPass::draw_range(const Program& program, const Range& range) const {
 void SceneryPass::draw() const {
   glEnable(GL_CULL_FACE);
   glBindVertexArray(array_.name());
-  draw_range(walls_, wall_range_);
-  draw_range(roofs_, roof_range_);
+  for (const Part& part : parts_) draw_range(part.program, part.range);
   for (const GroundLayer& layer : layers_) draw_ground(layer.material, layer.range);
   draw_ground(material_, ground_range_);
   draw_ground(std::string(kPlain), surroundings_range_);
-  if (decals_.name() == 0) return;
   const ColorOnly guard;
-  draw_range(decals_, decal_range_);
+  for (const Part& part : decals_) draw_range(part.program, part.range);
 }
 
 void SceneryPass::draw_ids() const {

@@ -36,6 +36,11 @@ class SceneryPass {
     Program program;
     Texture texture;
   };
+  /// A part of a range, and the program that draws it.
+  struct Part {
+    Program program;
+    Range range;
+  };
   /// Makes the look of a material unless it exists.
   void learn(const std::string& material, std::string_view shader, std::string_view words,
              const QualitySettings& quality);
@@ -51,9 +56,8 @@ class SceneryPass {
   Buffer vertices_;
   Buffer indices_;
   VertexArray array_;
-  Program walls_;
-  Program roofs_;
-  Program decals_;                     ///< none for drafts
+  std::vector<Part> parts_;            ///< walls and roofs
+  std::vector<Part> decals_;           ///< none for drafts
   std::map<std::string, Look> looks_;  ///< by the ground's material
   std::string material_;               ///< material of the ground that no layer covers
   Program shadow_;

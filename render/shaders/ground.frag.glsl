@@ -69,9 +69,6 @@ vec3 ground_albedo(vec2 p, vec2 width) {
 flat in float facade_kind;
 float opacity = 1.0;
 
-// A software renderer works out both sides of an `if` for all pixels, but no loop that none enters.
-#define ONLY_WHERE(condition) for (int once = (condition) ? 0 : 1; once < 1; ++once)
-
 vec3 ground_albedo(vec2 p, vec2 width);
 #endif
 
@@ -106,9 +103,10 @@ void main() {
 #endif
   // Worn and dirty ground is not only darker, but browner.
   vec3 albedo = ground_albedo(p, fwidth(p)) * (1.0 + (local.x - 1.0) * vec3(0.88, 1.0, 1.2));
-#ifdef DECAL
-  color = vec4(0.0);
-  ONLY_WHERE(opacity > 0.004) color = vec4(seen_color(albedo), opacity);
+#if defined(DARKENS)
+  color = vec4(0.0, 0.0, 0.0, 0.55 * opacity);
+#elif defined(DECAL)
+  color = vec4(seen_color(albedo), opacity);
 #else
   color = vec4(seen_color(albedo), 1.0);
 #endif

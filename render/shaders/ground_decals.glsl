@@ -1,4 +1,5 @@
-// Traces of use on the ground; the kinds are those of DecalKind (render/ground/ground_decals.h).
+// Traces of use on the ground; the kinds are those of DecalKind (render/ground/ground_decals.h). With
+// DARKENS those that have no color of their own, with SMALL fields of small objects, else the others.
 const int kManhole = 0;
 const int kDrain = 1;
 const int kPatch = 2;
@@ -100,49 +101,48 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   float w = max(width.x, width.y);
   vec2 at = abs(p) / half_size;
   float away = length(at);  // 1 on the rim of the ellipse in it
-  vec3 albedo = vec3(0.02);
-  bool are_small = kind >= kLeaves;
-  opacity = 0.0;
-  ONLY_WHERE(are_small && away < 1.0 && w < 0.08) {
-    float dense = clamp(1.15 - away * away, 0.0, 1.0) * smoothstep(0.25, 0.75, noise(p * 2.1 + vec2(seed & 1023)));
-    albedo = small_objects(kind, p, 1.5 * dense, w, seed);
+  vec3 albedo = vec3(0.0);
+#if defined(SMALL)
+  float dense = clamp(1.15 - away * away, 0.0, 1.0) * smoothstep(0.25, 0.75, noise(p * 2.1 + vec2(seed & 1023)));
+  albedo = small_objects(kind, p, 1.5 * dense, w, seed);
+  opacity *= step(away, 1.0) * step(w, 0.08);
+#else
+  float rough = 0.65 * noise(p * 2.1 + vec2(seed & 1023)) + 0.35 * noise(p * 7.0 + vec2(seed & 511));
+#if defined(DARKENS)
+  if (kind == kStain) {
+    opacity = (0.12 + 0.22 * pick) * smoothstep(1.0, 0.35, away + 0.9 * (rough - 0.4));
+  } else if (kind == kTires) {
+    float wheel = abs(abs(p.y) - max(half_size.y - 0.12, 0.0));
+    opacity = 0.4 * smoothstep(0.12, 0.06, wheel) * smoothstep(1.0, 0.6, at.x) * smoothstep(0.2, 0.6, rough);
+  } else if (kind == kTracks) {
+    float wheel = (abs(p.y) - 0.75) / 0.26;
+    float oil = p.y / 0.22;
+    float along = noise(world.xy * 0.12) + 0.5;
+    opacity = along * (0.15 * exp(-wheel * wheel) + 0.09 * exp(-oil * oil)) * (0.7 + 0.6 * rough);
+  } else if (kind == kWet) {
+    opacity = 0.32 * smoothstep(1.0, 0.35, away + 0.7 * (rough - 0.4));
+  } else {
+    opacity = 0.5 * max(1.0 - at.y, 0.0);
   }
-  float rough = 0.5;
-  ONLY_WHERE(!are_small) {
-    rough = 0.65 * noise(p * 2.1 + vec2(seed & 1023)) + 0.35 * noise(p * 7.0 + vec2(seed & 511));
-  }
-  ONLY_WHERE(kind == kManhole) albedo = cover(p, width);
-  ONLY_WHERE(kind == kDrain) albedo = grating(p, half_size, width);
-  ONLY_WHERE(kind == kPatch) albedo = repair(p, half_size, w, pick, rough);
-  ONLY_WHERE(kind == kSlabs) {
+#else
+  if (kind == kManhole) albedo = cover(p, width);
+  if (kind == kDrain) albedo = grating(p, half_size, width);
+  if (kind == kPatch) albedo = repair(p, half_size, w, pick, rough);
+  if (kind == kSlabs) {
     float rim = min(half_size.x - abs(p.x), half_size.y - abs(p.y));
     float seam = band(rim, -1.0, 0.03, w);
     opacity = (0.10 + 0.12 * pick + 0.25 * seam) * clamp(rim / w + 0.5, 0.0, 1.0);
     albedo = mix(pick < 0.6 ? vec3(0.13, 0.125, 0.12) : vec3(0.62, 0.58, 0.52), vec3(0.08), seam);
   }
-  ONLY_WHERE(kind == kChalk) albedo = chalk(p, half_size, w, pick, rough);
-  ONLY_WHERE(kind == kSigns) albedo = sprayed(p, half_size, w, pick);
-  ONLY_WHERE(kind == kStain) {
-    opacity = (0.12 + 0.22 * pick) * smoothstep(1.0, 0.35, away + 0.9 * (rough - 0.4));
-    albedo = vec3(0.05, 0.045, 0.04);
-  }
-  ONLY_WHERE(kind == kTires) {
-    float wheel = abs(abs(p.y) - max(half_size.y - 0.12, 0.0));
-    opacity = 0.4 * smoothstep(0.12, 0.06, wheel) * smoothstep(1.0, 0.6, at.x) * smoothstep(0.2, 0.6, rough);
-  }
-  ONLY_WHERE(kind == kTracks) {
-    float wheel = (abs(p.y) - 0.75) / 0.26;
-    float oil = p.y / 0.22;
-    float along = noise(world.xy * 0.12) + 0.5;
-    opacity = along * (0.15 * exp(-wheel * wheel) + 0.09 * exp(-oil * oil)) * (0.7 + 0.6 * rough);
-  }
-  ONLY_WHERE(kind == kSoil) {
+  if (kind == kChalk) albedo = chalk(p, half_size, w, pick, rough);
+  if (kind == kSigns) albedo = sprayed(p, half_size, w, pick);
+  if (kind == kSoil) {
     float edge = max(at.y, max(at.x - 0.5, 0.0) * 2.0);
     opacity = 0.88 * smoothstep(1.0, 0.45, edge + 0.8 * (rough - 0.35));
     albedo = vec3(0.205, 0.165, 0.108) * (0.7 + 0.6 * noise(p * 16.0));
   }
-  ONLY_WHERE(kind == kWet) opacity = 0.32 * smoothstep(1.0, 0.35, away + 0.7 * (rough - 0.4));
-  ONLY_WHERE(kind == kShade) opacity = 0.5 * max(1.0 - at.y, 0.0);
+#endif
+#endif
   opacity *= smoothstep(kFarM, 0.75 * kFarM, length(light.eye.xyz - world));
   return albedo;
 }

@@ -15,7 +15,7 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   float warmth = (pick(cell, kSlabs, 2) - 0.5) * fade;
   // A few slabs were laid later, from another quarry.
   float newer = step(0.955, pick(cell, kSlabs, 3)) * fade;
-  vec3 albedo = vec3(0.358, 0.336, 0.306) * (1.0 + 0.24 * tone - 0.16 * newer);
+  vec3 albedo = vec3(0.308, 0.289, 0.263) * (1.0 + 0.24 * tone - 0.16 * newer);
   albedo *= 1.0 + 0.08 * warmth * vec3(1.0, 0.0, -1.0);
   albedo *= 1.0 + 0.30 * (grain(p, 34.0, 4) - 0.5) * fade;
   // Dirt gathers along the joints, more of it in some places.

@@ -1,5 +1,5 @@
-// Props; the finishes are those of render/props/prop_shapes.h. With LEAVES: cards with leaves on them and
-// holes between.
+// Props; the finishes are those of render/props/prop_mesh.h. With LEAVES: cards with leaves on them and
+// holes between. SHINY, BARK, WATER or SCREEN: those surfaces are among them.
 in vec3 world;
 in vec3 normal;
 flat in vec4 paint;
@@ -16,17 +16,14 @@ layout(location = 1) out uint instance;
 
 const float kGlossy = 2.0;
 const float kLamp = 3.0;
-const float kWater = 4.0;
 const float kLitGlass = 5.0;
-const float kScreen = 6.0;
-const float kBark = 7.0;
 
 vec3 sky_in(vec3 direction) {
   vec3 sky = mix(light.haze.rgb, light.zenith.rgb, sqrt(max(direction.z, 0.0)));
   return sky * (direction.z > 0.0 ? 1.0 : 0.25);
 }
 
-#ifndef LEAVES
+#ifdef WATER
 // The slope of smooth noise with `per_meter` features per meter that drifts over the water.
 vec2 drifting_slope(vec2 p, float per_meter, float turn, vec2 drift) {
   mat2 turned = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
@@ -49,7 +46,7 @@ vec2 wave_slope(vec2 p, float time_s, float distance_m) {
 }
 #endif
 
-#ifndef LEAVES
+#ifdef BARK
 // Furrows along a trunk; dark bands around a birch's, which is bright.
 vec3 bark(vec3 albedo, vec3 n) {
   float around = abs(n.x) > abs(n.y) ? world.y : world.x;
@@ -70,7 +67,9 @@ void main() {
 #ifndef LEAVES
   if (!gl_FrontFacing) n = -n;
   float finish = round(paint.a * 255.0);
-  if (finish == kBark) albedo = bark(albedo, n);
+#ifdef BARK
+  albedo = bark(albedo, n);
+#endif
 #endif
 #ifdef WET
   albedo *= 0.75;
@@ -98,7 +97,7 @@ void main() {
   received += fire_light(world, n);
 #endif
   vec3 radiance = albedo * received;
-#ifndef LEAVES
+#ifdef SHINY
   if (finish == kGlossy || finish == kLitGlass) {
     vec3 to_eye = normalize(light.eye.xyz - world);
     vec3 mirrored = reflect(-to_eye, n);
@@ -107,8 +106,8 @@ void main() {
     radiance += fresnel * sky_in(mirrored) + light.sun.rgb * (0.8 * glint * shadow);
   }
 #endif
-#ifndef LEAVES
-  if (finish == kWater && n.z > 0.5) {
+#ifdef WATER
+  if (n.z > 0.5) {
     vec3 to_eye = light.eye.xyz - world;
     float distance_m = length(to_eye);
     to_eye /= distance_m;
@@ -130,15 +129,13 @@ void main() {
                light.sun.rgb * (6.0 * glint * fresnel * shadow);
   }
 #endif
-#ifndef LEAVES
-  if (finish == kScreen) {
-    vec2 place = floor(vec2(world.x + world.y, world.z) * 2.5) / 2.5;
-    vec3 shown = screen_image(place * 0.11, light.eye.w);
-    radiance += 0.2 * shown * received;
+#ifdef SCREEN
+  vec2 place = floor(vec2(world.x + world.y, world.z) * 2.5) / 2.5;
+  vec3 shown = screen_image(place * 0.11, light.eye.w);
+  radiance += 0.2 * shown * received;
 #ifdef LAMPS
-    radiance += light.lamps.rgb * (8.0e-4 * shown);
+  radiance += light.lamps.rgb * (8.0e-4 * shown);
 #endif
-  }
 #endif
 #if defined(LAMPS) && !defined(LEAVES)
   if (finish == kLitGlass) radiance += light.lamps.rgb * vec3(2.2e-4, 1.9e-4, 1.4e-4);

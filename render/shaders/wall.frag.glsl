@@ -1,5 +1,6 @@
 // A facade: stories and bays by its style (render/buildings/facade_style.h), windows that stand back in
-// their reveals, a plinth.
+// their reveals, a plinth. STORIES, SHOPS, GLASS or PLAIN: those walls; else the rare ones
+// (wall_part() of render/passes/scenery_pass.cpp).
 in vec3 world;
 in vec3 ambient;
 in vec4 local;  // along the wall, up, wall length, wall height; m
@@ -68,6 +69,22 @@ vec2 slope_in(vec3 outward) {
   return vec2(-dot(outward, along), -outward.z) / max(dot(outward, normal), 0.2);
 }
 
+// The inside of a shop: shelves, a dim room with lamps and tables, or figures before a bright wall.
+vec3 shop_inside(ivec2 cell, vec2 p, vec2 width) {
+  // Goods stand further back than panes, and hide each other as one passes.
+  vec2 goods = p + 0.7 * slope_in(normalize(light.eye.xyz - world));
+  goods.y = max(goods.y, 0.02);
+  float trade = hash(cell / ivec2(2, 1) + 409);
+  float lamp = smoothstep(0.25, 0.0, length(vec2(fract(goods.x * 0.8) - 0.5, goods.y - 1.9)));
+  float table = band(fract(goods.x * 0.55), 0.2, 0.8, width.x) * band(goods.y, 0.62, 0.72, width.y);
+  vec3 dim = vec3(0.035, 0.028, 0.022) + vec3(0.30, 0.22, 0.11) * lamp + vec3(0.12, 0.07, 0.04) * table;
+  vec2 from_figure = vec2(fract(goods.x * 1.1) - 0.5, 0.55 * (goods.y - 0.85));
+  float figure = smoothstep(0.26, 0.2, length(from_figure / vec2(0.7, 1.0)));
+  vec3 dress = vec3(0.3) * vec3(fract(trade * 91.0), fract(trade * 57.0), fract(trade * 33.0));
+  vec3 bright = mix(vec3(0.20, 0.19, 0.175), dress, figure);
+  return trade < 0.45 ? shop_display(cell, goods, width) : trade < 0.7 ? dim : bright;
+}
+
 struct Window {
   vec2 half_size;  // m; the height is twice the second
   vec2 panes;      // across and up
@@ -107,21 +124,9 @@ void add_window(inout Surface s, Window w, ivec2 cell, vec2 p, vec2 width) {
   float up = clamp(back.y / tall, 0.0, 1.0);
   float room = step(hash(cell + 307), 0.4) * (1.0 - curtain);
   inside += room * vec3(0.10, 0.085, 0.065) * (smoothstep(0.55, 1.0, up) + 0.5 * step(back.x, 0.0) * (1.0 - up));
-  if (w.is_shop) {
-    // Goods stand further back, and hide each other as one passes.
-    vec2 goods = p + 0.7 * slope_in(normalize(light.eye.xyz - world));
-    goods.y = max(goods.y, 0.02);
-    float trade = hash(cell / ivec2(2, 1) + 409);
-    // Shelves, a dim room with lamps and tables, or figures before a bright wall.
-    float lamp = smoothstep(0.25, 0.0, length(vec2(fract(goods.x * 0.8) - 0.5, goods.y - 1.9)));
-    float table = band(fract(goods.x * 0.55), 0.2, 0.8, width.x) * band(goods.y, 0.62, 0.72, width.y);
-    vec3 dim = vec3(0.035, 0.028, 0.022) + vec3(0.30, 0.22, 0.11) * lamp + vec3(0.12, 0.07, 0.04) * table;
-    float figure = smoothstep(0.26, 0.2, length(vec2(fract(goods.x * 1.1) - 0.5, 0.55 * (goods.y - 0.85)) /
-                                                vec2(0.7, 1.0)));
-    vec3 dress = vec3(0.3) * vec3(fract(trade * 91.0), fract(trade * 57.0), fract(trade * 33.0));
-    vec3 bright = mix(vec3(0.20, 0.19, 0.175), dress, figure);
-    inside = trade < 0.45 ? shop_display(cell, goods, width) : trade < 0.7 ? dim : bright;
-  }
+#ifdef SHOPS
+  if (w.is_shop) inside = shop_inside(cell, p, width);
+#endif
   vec3 frame = vec3(w.frame) * (w.frame > 0.3 ? vec3(1.0, 0.98, 0.94) : vec3(1.0));
   s.albedo = mix(s.albedo, 0.75 * s.albedo, opening);
   s.albedo = mix(s.albedo, frame, seen);
@@ -149,8 +154,7 @@ void add_window(inout Surface s, Window w, ivec2 cell, vec2 p, vec2 width) {
 }
 
 // A curtain wall: panes 1.4 m wide between slim mullions, a spandrel at every floor.
-Surface glass_facade(vec2 p, vec2 size, ivec2 key) {
-  vec2 width = fwidth(p);
+Surface glass_facade(vec2 p, vec2 size, vec2 width, ivec2 key) {
   vec2 pane_size = vec2(size.x / max(1.0, round(size.x / 1.4)),
                         size.y / max(1.0, round(size.y / 3.5)));
   vec2 at = p / pane_size;
@@ -225,8 +229,7 @@ void add_door(inout Surface s, ivec2 key, vec2 p, vec2 width) {
 
 // The doorway of an exit (render/buildings/exit_doors.h): a stone frame, a lit sign above, and either a dark
 // passage between opened leaves or closed ones, each about 1 m wide.
-Surface exit_door(vec2 p, vec2 size, bool open) {
-  vec2 width = fwidth(p);
+Surface exit_door(vec2 p, vec2 size, vec2 width, bool open) {
   float inside = band(p.x, 0.14, size.x - 0.14, width.x) * band(p.y, -1.0, size.y - 0.34, width.y);
   float middle = abs(p.x - 0.5 * size.x);
   float sign_board = band(middle, -1.0, 0.32, width.x) *
@@ -253,8 +256,7 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
 }
 
 // Rows of panes between dark bars, above a saw-tooth roof.
-Surface glazing(vec2 p, vec2 size) {
-  vec2 width = fwidth(p);
+Surface glazing(vec2 p, vec2 size, vec2 width) {
   vec2 bars = stripes_xy(p / vec2(1.0, 0.8), 0.08, width / vec2(1.0, 0.8));
   float bar = max(bars.x, bars.y);
   Surface s = dull();
@@ -264,8 +266,7 @@ Surface glazing(vec2 p, vec2 size) {
 }
 
 // A wall too low for a story: brick or plaster under a coping.
-Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
-  vec2 width = fwidth(p);
+Surface low_wall(vec2 p, vec2 size, vec2 width, ivec2 key, bool brick) {
   float stain = noise(p * vec2(0.7, 0.9)) - 0.5;
   float splash = exp(-3.0 * p.y) * (0.5 + 0.5 * noise(p * 3.0));
   float coping = band(p.y, size.y - 0.12, size.y, width.y);
@@ -278,8 +279,8 @@ Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
 }
 
 // A clipped hedge: tufts of leaves, darker toward the ground.
-Surface hedge(vec2 p, vec2 size) {
-  float fade = clamp(1.5 - 6.0 * max(fwidth(p.x), fwidth(p.y)), 0.0, 1.0);
+Surface hedge(vec2 p, vec2 size, vec2 width) {
+  float fade = clamp(1.5 - 6.0 * max(width.x, width.y), 0.0, 1.0);
   float tufts = noise(p * 3.1) + 0.7 * (noise(p * 9.7) - 0.5) * fade;
   Surface s = dull();
   s.albedo = vec3(0.019, 0.034, 0.010) * (0.55 + 0.9 * tufts) * (0.6 + 0.4 * p.y / size.y);
@@ -287,8 +288,7 @@ Surface hedge(vec2 p, vec2 size) {
 }
 
 // A wall of lights in a black frame, which shows moving images.
-Surface screen(vec2 p, vec2 size) {
-  vec2 width = fwidth(p);
+Surface screen(vec2 p, vec2 size, vec2 width) {
   vec2 place = floor(p / 0.25) * 0.25;
   float time_s = light.eye.w;
   vec3 shown = screen_image(place / size.y, time_s);
@@ -315,59 +315,46 @@ vec3 wall_albedo(vec2 p, vec2 width, bool brick) {
 
 // Paint that somebody sprayed on the foot of a wall: a few letters of thick lines in two colors.
 void add_graffiti(inout Surface s, ivec2 key, vec2 p, vec2 size, vec2 width) {
-  float where = hash(key + 91);
-  vec2 at = p - vec2(0.8 + where * max(0.0, size.x - 4.5), 0.5);
-  vec2 in_box = at / vec2(2.6, 1.1);
-  if (hash(key + 93) > 0.35 || min(in_box.x, in_box.y) < 0.0 || max(in_box.x, in_box.y) > 1.0) return;
-  float letter = floor(in_box.x * 5.0);
-  vec2 q = vec2(fract(in_box.x * 5.0), in_box.y) - 0.5;
-  float bend = 3.0 * hash(key + ivec2(int(letter), 7));
-  float line = abs(length(q * vec2(0.9, 0.75) + 0.12 * sin(bend + 5.0 * q.yx)) - 0.30);
-  float fill = smoothstep(0.14, 0.10, line + 0.3 * max(width.x, width.y));
-  float rim = smoothstep(0.20, 0.15, line) - fill;
-  vec3 tint = 0.45 * vec3(hash(key + 95), hash(key + 96), hash(key + 97));
-  s.albedo = mix(s.albedo, tint, 0.85 * fill);
-  s.albedo = mix(s.albedo, vec3(0.03), 0.8 * rim);
+  float from = 0.8 + hash(key + 91) * max(0.0, size.x - 4.5);
+  vec2 in_box = (p - vec2(from, 0.5)) / vec2(2.6, 1.1);
+  bool is_there = hash(key + 93) < 0.35 && min(in_box.x, in_box.y) > 0.0 && max(in_box.x, in_box.y) < 1.0;
+  if (is_there) {
+    float letter = floor(in_box.x * 5.0);
+    vec2 q = vec2(fract(in_box.x * 5.0), in_box.y) - 0.5;
+    float bend = 3.0 * hash(key + ivec2(int(letter), 7));
+    float line = abs(length(q * vec2(0.9, 0.75) + 0.12 * sin(bend + 5.0 * q.yx)) - 0.30);
+    float fill = smoothstep(0.14, 0.10, line + 0.3 * max(width.x, width.y));
+    float rim = smoothstep(0.20, 0.15, line) - fill;
+    vec3 tint = 0.45 * vec3(hash(key + 95), hash(key + 96), hash(key + 97));
+    s.albedo = mix(s.albedo, tint, 0.85 * fill);
+    s.albedo = mix(s.albedo, vec3(0.03), 0.8 * rim);
+  }
 }
 
-Surface facade(vec2 p, vec2 size, uint building) {
-  const float kLowestStory = 2.6;  // kMinStoryM of render/ground/scenery_mesh.h
-  vec2 width = fwidth(p);
-  int more = int(paint.a * 255.0 + 0.5);
-  ivec2 key = ivec2(int(building) + 977 * (more & 127), 3);
-  int kind = int(facade_kind + 0.5);
-  if (kind == 8) return hedge(p, size);
-  if (kind == 9) return screen(p, size);
-  if (kind == 4 || kind == 5) return exit_door(p, size, kind == 4);
-  if (kind == 14) return glazing(p, size);
-  if (kind == 15) {
-    Surface blank = dull();
-    blank.albedo = wall_albedo(p, width, false);
-    return blank;
-  }
+// A gable with the windows of its attic, where they have room below the slopes.
+Surface gable(vec2 p, vec2 size, ivec2 key, vec2 width, bool brick) {
+  Surface s = dull();
+  s.albedo = wall_albedo(p + vec2(0.0, 3.0), width, brick);
+  float room = 0.5 * size.x * (1.0 - 2.3 / size.y);
+  float apart = room > 2.2 ? 1.25 : 0.0;
+  float middle = 0.5 * size.x + apart * sign(p.x - 0.5 * size.x);
+  Window attic = Window(vec2(0.45, 0.65), vec2(2.0, 1.0), 0.5, 0.08, 0.0, false);
+  if (room > 0.9) add_window(s, attic, key + ivec2(int(middle), 5), p - vec2(middle, 0.7), width);
+  return s;
+}
+
+// Stories and bays of windows.
+Surface stories(vec2 p, vec2 size, ivec2 key, vec2 width, int kind, bool has_shops) {
   vec4 trims = kFacadeTrims[kind];
-  bool brick = trims.z > 0.5 || kind == 7;
-  if (kind == 6 || kind == 7) {
-    Surface plain = dull();
-    plain.albedo = wall_albedo(p + vec2(0.0, 3.0), width, brick);
-    // Windows of the attic, where they have room below the slopes.
-    float room = 0.5 * size.x * (1.0 - 2.3 / size.y);
-    float apart = room > 2.2 ? 1.25 : 0.0;
-    float middle = 0.5 * size.x + apart * sign(p.x - 0.5 * size.x);
-    Window attic = Window(vec2(0.45, 0.65), vec2(2.0, 1.0), 0.5, 0.08, 0.0, false);
-    if (room > 0.9) add_window(plain, attic, key + ivec2(int(middle), 5), p - vec2(middle, 0.7), width);
-    return plain;
-  }
-  if (size.y < kLowestStory && kind != 3) return low_wall(p, size, key, brick);
-  if (kind == 3) return glass_facade(p, size, key);
   vec4 sizes = kFacadeSizes[kind];
   vec4 windows = kFacadeWindows[kind];
+  bool brick = trims.z > 0.5;
   vec2 count = max(vec2(1.0), floor(size / sizes.xy + 0.5));
   vec2 bay = size / count;
   ivec2 cell = ivec2(min(floor(p / bay), count - 1.0));
   vec2 within = p - (vec2(cell) + vec2(0.5, 0.0)) * bay;
   bool ground_floor = cell.y == 0;
-  bool shop = ground_floor && more >= 128 && count.y > 1.5;
+  bool shop = ground_floor && has_shops && count.y > 1.5;
 
   Surface s = dull();
   s.albedo = wall_albedo(p, width, brick && !shop);
@@ -393,7 +380,8 @@ Surface facade(vec2 p, vec2 size, uint building) {
   float plinth = band(p.y, -1.0, 0.35, width.y);
   s.albedo = mix(s.albedo, 0.45 * s.albedo + vec3(0.07), plinth);
   s.shine *= 1.0 - plinth;
-  if (ground_floor && count.x >= 3.0 && cell.x == int(0.5 * count.x)) add_door(s, key, within, width);
+  bool has_door = ground_floor && count.x >= 3.0 && cell.x == int(0.5 * count.x);
+  if (has_door) add_door(s, key, within, width);
   if (ground_floor && !shop) add_graffiti(s, key, p, size, width);
 #ifdef LAMPS
   // The lamps of wall_lamps() in render/scenery/lamps.cpp.
@@ -403,6 +391,29 @@ Surface facade(vec2 p, vec2 size, uint building) {
   s.glow += 6.0 * bulb * vec3(1.0, 0.85, 0.6);
 #endif
   return s;
+}
+
+Surface facade(vec2 p, vec2 size, uint building) {
+  vec2 width = fwidth(p);
+  int more = int(paint.a * 255.0 + 0.5);
+  ivec2 key = ivec2(int(building) + 977 * (more & 127), 3);
+  int kind = int(facade_kind + 0.5);
+#if defined(STORIES)
+  return stories(p, size, key, width, kind, more >= 128);
+#elif defined(GLASS)
+  return glass_facade(p, size, width, key);
+#elif defined(PLAIN)
+  if (kind == 8) return hedge(p, size, width);
+  if (kind < 15) return low_wall(p, size, width, key, kFacadeTrims[kind].z > 0.5);
+  Surface s = dull();
+  s.albedo = wall_albedo(p, width, false);
+  return s;
+#else
+  if (kind == 4 || kind == 5) return exit_door(p, size, width, kind == 4);
+  if (kind == 9) return screen(p, size, width);
+  if (kind == 14) return glazing(p, size, width);
+  return gable(p, size, key, width, kind == 7);
+#endif
 }
 
 void main() {
@@ -423,7 +434,10 @@ void main() {
 #ifdef LAMPS
   glow = s.glow * light.lamps.rgb * kWindow;
 #endif
-  vec3 radiance = s.albedo * received + s.shine * mirrored_in_glass(s.mirror, s.tilt) + glow;
+  vec3 radiance = s.albedo * received + glow;
+#ifndef PLAIN
+  radiance += s.shine * mirrored_in_glass(s.mirror, s.tilt);
+#endif
   color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

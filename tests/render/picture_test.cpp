@@ -186,7 +186,7 @@ TEST(Image, ShadowsTurnAndShortenWithTheHours) {
     for (int y = 0; y < 480; ++y) {
       for (int x = 0; x < 480; ++x) {
         const std::size_t i = pixel_index(frame, x, y);
-        const bool is_dark = brightness(frame, x, y) < 0.8 * brightness(bare, x, y);
+        const bool is_dark = brightness(frame, x, y) < 0.7 * brightness(bare, x, y);
         if (frame.id[i] != kIdGround || !is_dark) continue;
         const Eigen::Vector2d at = camera.unproject({x, y}, frame.depth_m[i]).head<2>();
         if (at.cwiseAbs().maxCoeff() < 1.5) continue;  // beside the walls it is dark anyway
