@@ -158,7 +158,8 @@ class FrontDetails {
 
   double bay_middle_m(int bay) const { return (bay + 0.5) * grid_.bay_m; }
 
-  /// Columns of balconies on every third or fourth bay of every other house.
+  /// Columns of balconies on every third or fourth bay of every other house, none right above
+  /// shops, whose signs they would hide.
   void add_balconies() {
     constexpr double kShare = 0.5;
     if (style_.brick || random_.uniform() > kShare || grid_.stories < 2) return;
@@ -166,8 +167,9 @@ class FrontDetails {
     const int every = 3 + static_cast<int>(random_.below(2));
     const int first = 1 + static_cast<int>(random_.below(2));
     const bool is_solid = model_.look.facade == Facade::concrete || random_.uniform() < 0.25;
+    const int lowest = model_.look.has_shops ? 2 : 1;
     for (int bay = first; bay < grid_.bays; bay += every) {
-      for (int story = 1; story < grid_.stories; ++story) {
+      for (int story = lowest; story < grid_.stories; ++story) {
         add_balcony(bay_middle_m(bay), story * grid_.story_m + 0.05, is_solid);
       }
     }
