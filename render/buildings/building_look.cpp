@@ -27,13 +27,13 @@ double pick(std::uint32_t number, Choice choice, std::uint32_t more = 0) {
 }
 
 template <typename Value>
-struct Share {
+struct StyleShare {
   Value value;
   double share;  ///< shares of a list add up to 1
 };
 
 template <typename Value, std::size_t count>
-Value choose(const std::array<Share<Value>, count>& shares, double pick) {
+Value choose(const std::array<StyleShare<Value>, count>& shares, double pick) {
   for (const auto& [value, share] : shares) {
     if (pick < share) return value;
     pick -= share;
@@ -41,14 +41,14 @@ Value choose(const std::array<Share<Value>, count>& shares, double pick) {
   return shares.back().value;
 }
 
-constexpr std::array<Share<Facade>, 5> kHouses = {{{Facade::historic, 0.34},
-                                                   {Facade::brick, 0.24},
-                                                   {Facade::plaster, 0.24},
-                                                   {Facade::modern, 0.12},
-                                                   {Facade::concrete, 0.06}}};
-constexpr std::array<Share<Facade>, 3> kTowers = {
+constexpr std::array<StyleShare<Facade>, 5> kHouses = {{{Facade::historic, 0.34},
+                                                        {Facade::brick, 0.24},
+                                                        {Facade::plaster, 0.24},
+                                                        {Facade::modern, 0.12},
+                                                        {Facade::concrete, 0.06}}};
+constexpr std::array<StyleShare<Facade>, 3> kTowers = {
     {{Facade::concrete, 0.4}, {Facade::modern, 0.3}, {Facade::glass, 0.3}}};
-constexpr std::array<Share<Facade>, 3> kHalls = {
+constexpr std::array<StyleShare<Facade>, 3> kHalls = {
     {{Facade::warehouse, 0.5}, {Facade::modern, 0.3}, {Facade::concrete, 0.2}}};
 
 Facade choose_facade(const world::Building& building, std::uint32_t number) {
@@ -68,15 +68,15 @@ Facade choose_facade(const world::Building& building, std::uint32_t number) {
   return choose(kHouses, pick(number, Choice::facade, 1));
 }
 
-constexpr std::array<Share<RoofKind>, 4> kHistoricRoofs = {{{RoofKind::gabled, 0.36},
-                                                            {RoofKind::mansard, 0.34},
-                                                            {RoofKind::hipped, 0.22},
-                                                            {RoofKind::flat, 0.08}}};
-constexpr std::array<Share<RoofKind>, 4> kPlainRoofs = {{{RoofKind::gabled, 0.48},
-                                                         {RoofKind::hipped, 0.22},
-                                                         {RoofKind::half_hipped, 0.14},
-                                                         {RoofKind::flat, 0.16}}};
-constexpr std::array<Share<RoofKind>, 3> kHallRoofs = {
+constexpr std::array<StyleShare<RoofKind>, 4> kHistoricRoofs = {{{RoofKind::gabled, 0.36},
+                                                                 {RoofKind::mansard, 0.34},
+                                                                 {RoofKind::hipped, 0.22},
+                                                                 {RoofKind::flat, 0.08}}};
+constexpr std::array<StyleShare<RoofKind>, 4> kPlainRoofs = {{{RoofKind::gabled, 0.48},
+                                                              {RoofKind::hipped, 0.22},
+                                                              {RoofKind::half_hipped, 0.14},
+                                                              {RoofKind::flat, 0.16}}};
+constexpr std::array<StyleShare<RoofKind>, 3> kHallRoofs = {
     {{RoofKind::sawtooth, 0.4}, {RoofKind::gabled, 0.25}, {RoofKind::flat, 0.35}}};
 
 RoofKind choose_roof(const world::Building& building, Facade facade, std::uint32_t number) {
@@ -118,11 +118,11 @@ double usual_pitch_rad(RoofKind kind) {
   }
 }
 
-constexpr std::array<Share<Covering>, 3> kFlatCoverings = {
+constexpr std::array<StyleShare<Covering>, 3> kFlatCoverings = {
     {{Covering::gravel, 0.5}, {Covering::felt, 0.36}, {Covering::grass, 0.14}}};
-constexpr std::array<Share<Covering>, 3> kSteepCoverings = {
+constexpr std::array<StyleShare<Covering>, 3> kSteepCoverings = {
     {{Covering::tiles, 0.66}, {Covering::slate, 0.24}, {Covering::metal, 0.10}}};
-constexpr std::array<Share<Covering>, 3> kMansardCoverings = {
+constexpr std::array<StyleShare<Covering>, 3> kMansardCoverings = {
     {{Covering::slate, 0.5}, {Covering::tiles, 0.3}, {Covering::metal, 0.2}}};
 
 Covering choose_covering(RoofKind kind, double pick_one) {

@@ -11,7 +11,7 @@
 namespace throng::render {
 
 /// Bits of DecalRule::on.
-enum GroundBit : std::uint8_t { kPaved = 1, kRoad = 2, kGreen = 4, kBare = 8, kAnyGround = 15 };
+enum GroundBit : std::uint8_t { on_paved = 1, on_road = 2, on_green = 4, on_bare = 8, on_any = 15 };
 
 enum class DecalAnchor : std::uint8_t { prop, area, wall, kerb };
 enum class DecalTurn : std::uint8_t { any, along, across };  ///< of the area, wall or kerb

@@ -30,9 +30,9 @@ constexpr std::uint64_t kDecalIndex = std::uint64_t{1}
 
 std::uint8_t ground_bit(std::string_view material) {
   if (material.empty()) return 0;
-  if (is_paved(material)) return kPaved;
-  if (material == "asphalt") return kRoad;
-  return material == "grass" ? kGreen : kBare;
+  if (is_paved(material)) return on_paved;
+  if (material == "asphalt") return on_road;
+  return material == "grass" ? on_green : on_bare;
 }
 
 /// Whether a decal hides the ground, so that it must not lie on two materials or below props.

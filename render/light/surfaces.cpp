@@ -66,7 +66,8 @@ RaySurface wall_surface(const SceneryVertex& vertex, const Array3f& lamp_color) 
   if (is(WallLook::glazing)) return shining(Array3f::Constant(0.10F), 0.2F);
   if (is(world::Facade::glass)) return shining({0.08F, 0.085F, 0.085F}, 0.25F);
   const Array3f wall = 0.9F * paint(vertex);
-  if (is(world::Facade::blank) || is(WallLook::gable) || is(WallLook::brick_gable) || height < static_cast<float>(kMinStoryM)) {
+  if (is(world::Facade::blank) || is(WallLook::gable) || is(WallLook::brick_gable) ||
+      height < static_cast<float>(kMinStoryM)) {
     return matt(wall);
   }
   // Windows take a fifth of it, of the ground floor, with its shops, a half.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -95,7 +96,7 @@ constexpr std::array<std::string_view, 3> kDecalParts = {"#define OBJECTS\n", "#
                                                          "#define DARKENS\n"};
 
 std::size_t wall_part(const SceneryVertex& vertex) {
-  const auto kind = static_cast<int>(vertex.facade + 0.5F);
+  const auto kind = static_cast<int>(std::lround(vertex.facade));
   const auto is = [&](world::Facade facade) { return kind == static_cast<int>(facade); };
   if (is(world::Facade::glass)) return 2;
   if (is(world::Facade::hedge) || is(world::Facade::blank)) return 3;
@@ -106,7 +107,7 @@ std::size_t wall_part(const SceneryVertex& vertex) {
 }
 
 std::size_t roof_part(const SceneryVertex& vertex) {
-  const auto kind = static_cast<world::Covering>(vertex.facade + 0.5F);
+  const auto kind = static_cast<world::Covering>(std::lround(vertex.facade));
   return kind == world::Covering::tiles || kind == world::Covering::slate ? 1 : 0;
 }
 

@@ -94,7 +94,8 @@ class PropBuilder {
   void word(const std::array<Eigen::Vector3d, 4>& corners, const Eigen::Vector3d& normal,
             const Eigen::Vector3d& paint, std::size_t number) {
     quad(corners, {normal, normal, normal, normal}, paint, Finish::leaves);
-    const auto layer = static_cast<float>(kLeafSprites + number / kWordsPerSheet);
+    const std::size_t sheet = number / kWordsPerSheet;
+    const auto layer = static_cast<float>(kLeafSprites + sheet);
     const auto row = static_cast<float>(number % kWordsPerSheet);
     for (std::size_t i = mesh_.vertices.size() - corners.size(); i < mesh_.vertices.size(); ++i) {
       std::array<float, 2>& card = mesh_.vertices[i].card;

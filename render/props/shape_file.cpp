@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/geometry/angle.h"
+#include "base/json/json_text.h"
 #include "render/props/plants.h"
 
 namespace throng::embedded {
@@ -36,7 +37,7 @@ struct ShapePaint {
 using NamedPaints = std::map<std::string, ShapePaint>;
 
 const json& shape_files() {
-  static const json files = json::parse(embedded::prop_shapes);
+  static const json files = parse_own_json(embedded::prop_shapes, "the shapes of props");
   return files;
 }
 

@@ -18,6 +18,7 @@ from throng.annotations import Annotations
 
 CATEGORIES = {1: "person", 2: "drone", 3: "car", 4: "train", 5: "van", 6: "truck", 7: "bus", 8: "motorcycle"}
 
+
 class Reading(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
