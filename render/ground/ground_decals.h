@@ -45,7 +45,7 @@ struct GroundDecal {
 inline constexpr std::size_t kMaxDecals = 6000;
 
 /// The decals of a scenario, which follow from it alone; their middles lie on its ground outside of
-/// buildings. Later ones cover earlier ones.
+/// buildings. Later ones cover earlier ones that share a shader.
 std::vector<GroundDecal> ground_decals(const world::Scenario& scenario);
 
 /// Appends decals to the mesh as SceneryMesh::decals.

@@ -7,7 +7,7 @@
 
 namespace throng::render {
 
-/// Min height (m) of walls with stories, windows and lamps; also in shaders/wall.frag.glsl.
+/// Min height (m) of walls with stories, windows and lamps.
 inline constexpr double kMinStoryM = 2.6;
 
 /// A vertex of the scenery.

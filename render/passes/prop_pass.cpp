@@ -194,16 +194,10 @@ void PropPass::draw_ranges(const Program& program, const std::vector<const Item*
                       static_cast<GLsizei>(counts.size()));
 }
 
-PropPass::SolidPrograms PropPass::solid_programs() const {
-  SolidPrograms programs{};
-  for (std::size_t i = 0; i < kPropSurfaces; ++i) programs.at(i) = &solid_.at(i);
-  return programs;
-}
-
-void PropPass::draw_solid(const SolidPrograms& programs, const std::vector<const Item*>& items,
-                          const Eigen::Vector4d& near) const {
+void PropPass::draw_solid(const std::vector<const Item*>& items, const Eigen::Vector4d& near,
+                          bool only_ids) const {
   for (std::size_t i = 0; i < kPropSurfaces; ++i) {
-    draw_ranges(*programs.at(i), items, [&](const Item& item) {
+    draw_ranges(only_ids ? solid_ids_ : solid_.at(i), items, [&](const Item& item) {
       const double distance_m = near.head<3>().dot(item.middle) + near.w();
       return distance_m > kDetailsM ? item.far_solid.at(i) : item.solid.at(i);
     });
@@ -211,17 +205,14 @@ void PropPass::draw_solid(const SolidPrograms& programs, const std::vector<const
 }
 
 void PropPass::draw(const ClipPlanes& planes, double time_s) const {
-  draw_with(solid_programs(), leaves_, planes, time_s);
+  draw_in_view(planes, time_s, false);
 }
 
 void PropPass::draw_ids(const ClipPlanes& planes, double time_s) const {
-  SolidPrograms programs{};
-  programs.fill(&solid_ids_);
-  draw_with(programs, leaf_ids_, planes, time_s);
+  draw_in_view(planes, time_s, true);
 }
 
-void PropPass::draw_with(const SolidPrograms& solid, const Program& leaves,
-                         const ClipPlanes& planes, double time_s) const {
+void PropPass::draw_in_view(const ClipPlanes& planes, double time_s, bool only_ids) const {
   std::vector<const Item*> closed;
   std::vector<const Item*> open;
   for (const Item& item : items_) {
@@ -236,11 +227,11 @@ void PropPass::draw_with(const SolidPrograms& solid, const Program& leaves,
   });
   glBindVertexArray(array_.name());
   glEnable(GL_CULL_FACE);
-  draw_solid(solid, closed, near);
+  draw_solid(closed, near, only_ids);
   glDisable(GL_CULL_FACE);
-  draw_solid(solid, open, near);
+  draw_solid(open, near, only_ids);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
-  draw_ranges(leaves, closed, &Item::leaves);
+  draw_ranges(only_ids ? leaf_ids_ : leaves_, closed, &Item::leaves);
 }
 
 std::vector<const PropPass::Item*> PropPass::backdrop_in(const ClipPlanes& planes) const {
@@ -262,7 +253,7 @@ void PropPass::draw_backdrop(const ClipPlanes& planes) const {
   glDepthMask(GL_TRUE);  // its houses and trees hide each other
   glBindVertexArray(array_.name());
   glEnable(GL_CULL_FACE);
-  draw_solid(solid_programs(), parts, near);
+  draw_solid(parts, near, false);
   glDisable(GL_CULL_FACE);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
   draw_ranges(leaves_, parts, &Item::leaves);

@@ -36,8 +36,7 @@ class PropPass {
            const QualitySettings& quality);
 
   /// Draws the props in view at a time of the run, with their details (PropMesh::far_indices) where
-  /// they are near. Expects the same bindings as
-  /// SceneryPass::draw().
+  /// they are near. Expects the same bindings as SceneryPass::draw().
   void draw(const ClipPlanes& planes, double time_s) const;
 
   /// Draws only the ids and the depth of the same triangles.
@@ -71,13 +70,11 @@ class PropPass {
   /// Appends a mesh to `vertices` and `indices`.
   void add(const PlacedProp& prop, std::vector<PropVertex>& vertices,
            std::vector<std::uint32_t>& indices);
-  using SolidPrograms = std::array<const Program*, kPropSurfaces>;
-  void draw_with(const SolidPrograms& solid, const Program& leaves, const ClipPlanes& planes,
-                 double time_s) const;
-  /// Draws the solid surfaces of props, with details within kDetailsM of the plane `near`.
-  void draw_solid(const SolidPrograms& programs, const std::vector<const Item*>& items,
-                  const Eigen::Vector4d& near) const;
-  SolidPrograms solid_programs() const;
+  /// Draws the props in view, or only their ids.
+  void draw_in_view(const ClipPlanes& planes, double time_s, bool only_ids) const;
+  /// Draws solid surfaces, or only their ids, with details within kDetailsM of the plane `near`.
+  void draw_solid(const std::vector<const Item*>& items, const Eigen::Vector4d& near,
+                  bool only_ids) const;
   /// Parts of the backdrop that may be in view.
   std::vector<const Item*> backdrop_in(const ClipPlanes& planes) const;
   template <typename RangeOf>

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string_view>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
+#include "render/buildings/building_mesh.h"
 #include "render/buildings/facade_style.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
@@ -86,66 +85,64 @@ constexpr std::string_view kRoofAlbedo =
     "layout(location = 6) in vec4 paint;\n"
     "vec3 ground_albedo(vec2 p, vec2 width) { return paint.rgb; }\n";
 
-/// Surfaces with programs of their own, because a software renderer works out every branch of a
-/// shader for every pixel: the words of their shaders, in the order of wall_part() and the like.
-constexpr std::array<std::string_view, 5> kWallParts = {"#define STORIES\n",
-                                                        "#define STORIES\n#define SHOPS\n",
-                                                        "#define GLASS\n", "#define PLAIN\n", ""};
-constexpr std::array<std::string_view, 2> kRoofParts = {"", "#define LAPPED\n"};
-constexpr std::array<std::string_view, 3> kDecalParts = {"#define OBJECTS\n", "#define SMALL\n",
-                                                         "#define DARKENS\n"};
+// Surfaces whose triangles have programs of their own, because a software renderer works out every
+// branch of a shader for every pixel: the words that choose the program of a triangle.
 
-std::size_t wall_part(const SceneryVertex& vertex) {
-  const auto kind = static_cast<int>(std::lround(vertex.facade));
-  const auto is = [&](world::Facade facade) { return kind == static_cast<int>(facade); };
-  if (is(world::Facade::glass)) return 2;
-  if (is(world::Facade::hedge) || is(world::Facade::blank)) return 3;
-  const bool has_style = kind < 3 || (kind > 9 && kind < 14);
-  if (!has_style) return 4;
-  if (vertex.local[3] < static_cast<float>(kMinStoryM)) return 3;
-  return vertex.paint[3] >= 128 ? 1 : 0;
+std::string_view wall_words(const SceneryVertex& vertex) {
+  const auto is = [&](auto look) { return vertex.facade == static_cast<float>(look); };
+  if (is(world::Facade::glass)) return "#define GLASS\n";
+  if (is(world::Facade::screen) || is(WallLook::open_door) || is(WallLook::closed_door) ||
+      is(WallLook::gable) || is(WallLook::brick_gable) || is(WallLook::glazing)) {
+    return "";
+  }
+  if (is(world::Facade::hedge) || is(world::Facade::blank) ||
+      vertex.local[3] < static_cast<float>(kMinStoryM)) {
+    return "#define PLAIN\n";
+  }
+  constexpr std::uint8_t kShops = 0x80;
+  return (vertex.paint[3] & kShops) != 0 ? "#define STORIES\n#define SHOPS\n" : "#define STORIES\n";
 }
 
-std::size_t roof_part(const SceneryVertex& vertex) {
-  const auto kind = static_cast<world::Covering>(std::lround(vertex.facade));
-  return kind == world::Covering::tiles || kind == world::Covering::slate ? 1 : 0;
+std::string_view roof_words(const SceneryVertex& vertex) {
+  const auto is = [&](world::Covering look) { return vertex.facade == static_cast<float>(look); };
+  return is(world::Covering::tiles) || is(world::Covering::slate) ? "#define LAPPED\n" : "";
 }
 
-std::size_t decal_part(const SceneryVertex& vertex) {
+std::string_view decal_words(const SceneryVertex& vertex) {
   switch (static_cast<DecalKind>(vertex.facade)) {
     case DecalKind::stain:
     case DecalKind::tires:
     case DecalKind::tracks:
     case DecalKind::wet:
     case DecalKind::shade:
-      return 2;
+      return "#define DARKENS\n";
     case DecalKind::leaves:
     case DecalKind::litter:
     case DecalKind::gum:
     case DecalKind::daisies:
     case DecalKind::weeds:
-      return 1;
+      return "#define SMALL\n";
     default:
-      return 0;
+      return "";
   }
 }
 
-/// Brings triangles of a range that belong to one part together; returns the parts' ranges.
-template <std::size_t N>
-std::array<Range, N> split(const std::vector<SceneryVertex>& vertices, const Range& range,
-                           std::size_t (*part_of)(const SceneryVertex&),
-                           std::vector<std::uint32_t>& indices) {
-  std::array<std::vector<std::uint32_t>, N> parts;
+/// Brings triangles of a range together that have the same words; returns the words' ranges.
+std::map<std::string_view, Range> sort_triangles(const std::vector<SceneryVertex>& vertices,
+                                                 const Range& range,
+                                                 std::string_view (*words)(const SceneryVertex&),
+                                                 std::vector<std::uint32_t>& indices) {
+  std::map<std::string_view, std::vector<std::uint32_t>> parts;
   for (std::size_t i = range.first; i < range.first + range.count; i += 3) {
-    std::vector<std::uint32_t>& part = parts.at(part_of(vertices[indices[i]]));
+    std::vector<std::uint32_t>& part = parts[words(vertices[indices[i]])];
     part.insert(part.end(), &indices[i], &indices[i] + 3);
   }
-  std::array<Range, N> ranges;
+  std::map<std::string_view, Range> ranges;
   std::uint32_t first = range.first;
-  for (std::size_t i = 0; i < N; ++i) {
-    ranges.at(i) = {first, static_cast<std::uint32_t>(parts.at(i).size())};
-    std::copy(parts.at(i).begin(), parts.at(i).end(), indices.begin() + first);
-    first += ranges.at(i).count;
+  for (const auto& [name, part] : parts) {
+    ranges[name] = {first, static_cast<std::uint32_t>(part.size())};
+    std::copy(part.begin(), part.end(), indices.begin() + first);
+    first += ranges[name].count;
   }
   return ranges;
 }
@@ -191,23 +188,20 @@ SceneryPass::SceneryPass(const PlaceMeshes& meshes, const world::Scenario& scena
       words + std::string(environment.sun_elevation_rad < kLowSunRad ? kWideFilter : "");
   std::vector<std::uint32_t> indices = meshes.scenery.indices;
   if (quality.textured) {
-    const auto add = [&](const auto& part_words, const Range& range, auto part_of,
-                         const std::string& all_words, std::string_view first,
-                         std::string_view second, std::vector<Part>& parts) {
-      const auto ranges = split<std::tuple_size_v<std::decay_t<decltype(part_words)>>>(
-          meshes.scenery.vertices, range, part_of, indices);
-      for (std::size_t i = 0; i < ranges.size(); ++i) {
-        if (ranges.at(i).count == 0) continue;
-        const std::string own = std::string(all_words).append(part_words.at(i));
-        parts.push_back({make_scenery_program(own, first, second), ranges.at(i)});
+    using Words = std::string_view (*)(const SceneryVertex&);
+    const auto add = [&](const Range& range, Words part_words, const std::string& all_words,
+                         std::string_view surface, std::string_view more, std::vector<Part>& to) {
+      for (const auto& [own, part] :
+           sort_triangles(meshes.scenery.vertices, range, part_words, indices)) {
+        to.push_back({make_scenery_program(all_words + std::string(own), surface, more), part});
       }
     };
     const std::string wide = words + std::string(kWideFilter);
     const std::string wall = facade_words() + std::string(embedded::shader_wall_frag);
-    add(kWallParts, wall_range_, wall_part, wide, embedded::shader_screen, wall, parts_);
-    add(kRoofParts, roof_range_, roof_part, wide, embedded::shader_roof_frag, "", parts_);
-    add(kDecalParts, decal_range_, decal_part, ground_words + std::string(kDecal),
-        embedded::shader_ground_frag, embedded::shader_ground_decals, decals_);
+    add(wall_range_, wall_words, wide, embedded::shader_screen, wall, parts_);
+    add(roof_range_, roof_words, wide, embedded::shader_roof_frag, "", parts_);
+    add(decal_range_, decal_words, ground_words + std::string(kDecal), embedded::shader_ground_frag,
+        embedded::shader_ground_decals, decals_);
   } else {
     parts_.push_back({make_corners_program(words, kWallAlbedo), wall_range_});
     parts_.push_back({make_corners_program(words, kRoofAlbedo), roof_range_});

@@ -1,6 +1,6 @@
 // A facade: stories and bays by its style (render/buildings/facade_style.h), windows that stand back in
 // their reveals, a plinth. STORIES, SHOPS, GLASS or PLAIN: those walls; else the rare ones
-// (wall_part() of render/passes/scenery_pass.cpp).
+// (wall_words() of render/passes/scenery_pass.cpp).
 in vec3 world;
 in vec3 ambient;
 in vec4 local;  // along the wall, up, wall length, wall height; m
