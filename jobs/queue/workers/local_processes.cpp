@@ -75,14 +75,14 @@ class Batch {
            const SteadyNow& now)
         : task(index),
           permit(std::move(held)),
-          process(command, variables, log),
           begun(now()),
-          heard(begun) {}
+          heard(begun),
+          process(command, variables, log) {}
     std::size_t task;
     Admission::Permit permit;  ///< given back when the process has ended
+    SteadyTime begun;          ///< before its process, however long that takes to start
+    SteadyTime heard;          ///< when it last said something
     ChildProcess process;
-    SteadyTime begun;
-    SteadyTime heard;  ///< when it last said something
     long long kills_before = kills_for_memory();
     std::optional<WorkerError> error;
     std::string timeout;
