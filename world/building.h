@@ -25,7 +25,9 @@ enum class Facade : std::uint8_t {
   modern = 11,     ///< smooth render with wide windows
   concrete = 12,   ///< slabs with joints
   warehouse = 13,  ///< brick with large windows of many panes
-  blank = 15       ///< plaster without windows or anything on it
+  blank = 15,      ///< plaster without windows or anything on it
+  railing = 16,    ///< posts, a handrail and bars
+  fence = 17       ///< posts and panels of wire
 };
 
 /// Shape of a roof. by_id: a seed chooses among those that suit the building.

@@ -81,9 +81,38 @@ enum class PropKind : std::uint8_t {
   flower_stand,
   clothes_rack,
   kick_scooter,
-  charging_station
+  charging_station,
+  main_stage,
+  line_array,
+  led_screen,
+  mixing_tower,
+  delay_tower,
+  crowd_barrier,
+  camera_crane,
+  drink_stand,
+  beach_flag,
+  goal,
+  team_bench,
+  advertising_board,
+  turnstile,
+  queue_rail,
+  vendor_cart,
+  floodlight_mast,
+  train_cab,
+  catenary_mast,
+  platform_canopy,
+  departure_board,
+  station_clock,
+  name_board,
+  ticket_machine,
+  luggage,
+  taxi,
+  platform_shelter,
+  rowboat,
+  barge,
+  pontoon
 };
-inline constexpr std::size_t kPropKinds = 68;
+inline constexpr std::size_t kPropKinds = 97;
 
 /// Form of a prop where it meets the ground.
 enum class Foot : std::uint8_t { rectangle, disc, posts };

@@ -21,6 +21,7 @@
 #include "world/ground.h"
 #include "world/props.h"
 #include "world/semantic_class.h"
+#include "world/stand.h"
 
 namespace throng::crowd {
 struct CrowdDescription;
@@ -106,6 +107,7 @@ struct Scenario {
   std::vector<Prop> props;  ///< placed in the order of the file, then scattered, then of clutter
   std::size_t placed_props = 0;  ///< number of placed props
   std::size_t strewn_props = 0;  ///< number of clutter's, which no crowd walks around
+  std::vector<Stand> stands;
   std::vector<PlacedMesh> meshes;
   std::vector<GroundArea> areas;  ///< later areas cover earlier ones
   std::vector<Marking> markings;

@@ -60,6 +60,11 @@ constexpr std::array<SemanticClassInfo, kSemanticClasses> kClasses = {{
     {C::statue, "statue", {130, 160, 140}, G::prop},
     {C::flagpole, "flagpole", {170, 200, 230}, G::prop},
     {C::construction, "construction", {240, 150, 0}, G::prop},
+    {C::railway, "railway", {230, 150, 140}, G::prop},
+    {C::sports, "sports", {250, 250, 200}, G::prop},
+    {C::canopy, "canopy", {150, 100, 160}, G::prop},
+    {C::boat, "boat", {30, 70, 110}, G::prop},
+    {C::bridge, "bridge", {150, 100, 100}, G::prop},
 }};
 
 constexpr bool is_in_order() {

@@ -61,8 +61,13 @@ enum class SemanticClass : std::uint8_t {
   statue = 47,
   flagpole = 48,
   construction = 49,  ///< scaffolds, fences, cones, skips, cabins
+  railway = 50,       ///< rails, sleepers, ballast, masts and wires
+  sports = 51,        ///< goals
+  canopy = 52,        ///< roofs on posts over platforms
+  boat = 53,          ///< and pontoons
+  bridge = 54         ///< what carries a deck: arches, girders, piers
 };
-inline constexpr std::size_t kSemanticClasses = 50;
+inline constexpr std::size_t kSemanticClasses = 55;
 
 /// Kinds of instances to which a pixel can belong.
 enum class SemanticGroup : std::uint8_t {

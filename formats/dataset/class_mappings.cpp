@@ -17,6 +17,8 @@ constexpr CityscapesClass kBuilding{11, "building", 2, {70, 70, 70}};
 constexpr CityscapesClass kWall{12, "wall", 3, {102, 102, 156}};
 constexpr CityscapesClass kFence{13, "fence", 4, {190, 153, 153}};
 constexpr CityscapesClass kGuardRail{14, "guard rail", 255, {180, 165, 180}};
+constexpr CityscapesClass kBridge{15, "bridge", 255, {150, 100, 100}};
+constexpr CityscapesClass kRailTrack{10, "rail track", 255, {230, 150, 140}};
 constexpr CityscapesClass kPole{17, "pole", 5, {153, 153, 153}};
 constexpr CityscapesClass kVegetation{21, "vegetation", 8, {107, 142, 35}};
 constexpr CityscapesClass kTerrain{22, "terrain", 9, {152, 251, 152}};
@@ -96,6 +98,11 @@ constexpr std::array<Mapping, world::kSemanticClasses> kMappings = {{
     {C::statue, kStatic, kUavidClutter},
     {C::flagpole, kPole, kUavidClutter},
     {C::construction, kStatic, kUavidClutter},
+    {C::railway, kRailTrack, kUavidClutter},
+    {C::sports, kStatic, kUavidClutter},
+    {C::canopy, kBuilding, kUavidBuilding},
+    {C::boat, kDynamic, kUavidClutter},
+    {C::bridge, kBridge, kUavidClutter},
 }};
 
 constexpr bool is_in_order() {

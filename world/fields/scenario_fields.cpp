@@ -12,6 +12,7 @@
 #include "world/fields/ground_fields.h"
 #include "world/fields/prop_fields.h"
 #include "world/fields/scenario_parts.h"
+#include "world/fields/stand_fields.h"
 
 namespace throng::world {
 
@@ -168,6 +169,8 @@ void add_parts(FieldTable<Scenario>& table) {
       .checked([](const Scenario& scenario, const json& /*list*/, const FieldLocation& place) {
         check_ids(scenario.buildings, place);
       });
+  table.add_list("stands", stand_fields(), at(&Scenario::stands), "Tiers of seats.")
+      .checked(check_stands);
   table.add_list("drones", drone_fields(), at(&Scenario::drones), "Drones that jobs fly.")
       .checked(check_drones);
   table.add_list("meshes", mesh_fields(), at(&Scenario::meshes), "Meshes that are rendered.");

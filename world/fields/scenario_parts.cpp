@@ -15,6 +15,7 @@
 #include "base/geometry/polygon.h"
 #include "base/json/json_describe.h"
 #include "world/fields/document_values.h"
+#include "world/fields/paint_values.h"
 
 namespace throng::world {
 
@@ -33,7 +34,7 @@ constexpr double kMaxMeshScale = 1e4;
 template <typename Value>
 using Word = std::pair<const char*, Value>;
 
-constexpr std::array<Word<Facade>, 10> kFacades = {{{"plaster", Facade::plaster},
+constexpr std::array<Word<Facade>, 12> kFacades = {{{"plaster", Facade::plaster},
                                                     {"brick", Facade::brick},
                                                     {"glass", Facade::glass},
                                                     {"hedge", Facade::hedge},
@@ -42,7 +43,9 @@ constexpr std::array<Word<Facade>, 10> kFacades = {{{"plaster", Facade::plaster}
                                                     {"modern", Facade::modern},
                                                     {"concrete", Facade::concrete},
                                                     {"warehouse", Facade::warehouse},
-                                                    {"blank", Facade::blank}}};
+                                                    {"blank", Facade::blank},
+                                                    {"railing", Facade::railing},
+                                                    {"fence", Facade::fence}}};
 
 constexpr std::array<Word<RoofKind>, 9> kRoofKinds = {{{"flat", RoofKind::flat},
                                                        {"gabled", RoofKind::gabled},
@@ -84,27 +87,12 @@ void add_choice(FieldTable<Object>& table, const char* name, const Words& words,
       std::move(help));
 }
 
-Paint paint_from_hex(const std::string& text) {
-  Paint paint;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto byte = std::stoi(text.substr(1 + 2 * i, 2), nullptr, 16);
-    paint[static_cast<Eigen::Index>(i)] = linear_from_srgb(static_cast<std::uint8_t>(byte));
-  }
-  return paint;
-}
-
-std::string hex_from_paint(const Paint& paint) {
-  return fmt::format("#{:02x}{:02x}{:02x}", srgb_from_linear(paint[0]), srgb_from_linear(paint[1]),
-                     srgb_from_linear(paint[2]));
-}
-
 /// Adds a color such as "#a05030", in sRGB.
 template <typename Object, typename Access>
 void add_paint(FieldTable<Object>& table, Access access, std::string help) {
   table.add(
       "color", "", "",
-      fields::raw({{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}},
-                  "a color such as \"#a05030\""),
+      paints(),
       [access](const Object& object) {
         return access(object) ? json(hex_from_paint(*access(object))) : json();
       },

@@ -29,7 +29,7 @@ export interface Kind {
 const kDoing: FieldSpec = { key: "doing", label: "Doing", type: "choice", choices: ["stroll", "wait", "cross", "leave"], isRequired: true };
 const number = (key: string, label: string, unit = "", usual = ""): FieldSpec => ({ key, label, type: "number", unit, usual });
 const kId: FieldSpec = { key: "id", label: "Id", type: "text", isRequired: true };
-const kFacades = ["plaster", "brick", "historic", "modern", "concrete", "warehouse", "glass", "blank", "hedge", "screen"];
+const kFacades = ["plaster", "brick", "historic", "modern", "concrete", "warehouse", "glass", "blank", "hedge", "screen", "railing", "fence"];
 const kRoofKinds = ["flat", "gabled", "hipped", "half_hipped", "mansard", "shed", "sawtooth", "pyramid", "dome"];
 const kCoverings = ["gravel", "tiles", "slate", "metal", "grass", "felt"];
 const kPropKinds = [
@@ -101,6 +101,35 @@ const kPropKinds = [
   "clothes_rack",
   "kick_scooter",
   "charging_station",
+  "main_stage",
+  "line_array",
+  "led_screen",
+  "mixing_tower",
+  "delay_tower",
+  "crowd_barrier",
+  "camera_crane",
+  "drink_stand",
+  "beach_flag",
+  "goal",
+  "team_bench",
+  "advertising_board",
+  "turnstile",
+  "queue_rail",
+  "vendor_cart",
+  "floodlight_mast",
+  "train_cab",
+  "catenary_mast",
+  "platform_canopy",
+  "departure_board",
+  "station_clock",
+  "name_board",
+  "ticket_machine",
+  "luggage",
+  "taxi",
+  "platform_shelter",
+  "rowboat",
+  "barge",
+  "pontoon",
 ];
 const kPropFields: FieldSpec[] = [
   { key: "kind", label: "Kind", type: "choice", choices: kPropKinds, isRequired: true },
@@ -148,7 +177,7 @@ export const kKinds: Kind[] = [
     shape: "polygon",
     outline: "corners",
     fields: [
-      { key: "material", label: "Material", type: "choice", choices: ["pavers", "asphalt", "grass", "concrete", "dirt"], isRequired: true },
+      { key: "material", label: "Material", type: "choice", choices: ["pavers", "asphalt", "grass", "concrete", "dirt", "water"], isRequired: true },
       { key: "kerb", label: "Kerb", type: "choice", choices: ["0", "1"], usual: "0" },
     ],
     members: { material: "grass" },
