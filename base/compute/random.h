@@ -31,6 +31,7 @@ enum class Stream : std::uint32_t {
   bootstrap = 25,   ///< resampling of statistics
   aim = 26,         ///< people at whom drones aim, and positions of the drones
   place = 27,       ///< scenarios generated for single runs of a job
+  spectators = 28,  ///< seats, postures and departure of people on stands
 };
 
 /// A generator for the key (seed, stream, index): Philox 4x32-10 (Salmon et al. 2011) of Random123.

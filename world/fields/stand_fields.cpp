@@ -1,9 +1,13 @@
 #include "world/fields/stand_fields.h"
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
+#include "base/json/json_describe.h"
 #include "world/fields/document_values.h"
 #include "world/fields/paint_values.h"
+#include "world/stand_seats.h"
 
 namespace throng::world {
 
@@ -15,6 +19,8 @@ using nlohmann::json;
 namespace {
 
 constexpr double kMinStandM = 2;
+constexpr double kMaxStandM = 500;
+constexpr int kMaxSpectators = 20000;  // of a scenario
 
 void set_colors(Stand& stand, const json& list, const FieldLocation& /*place*/) {
   for (const json& color : list) stand.colors.push_back(paint_from_hex(color));
@@ -24,8 +30,8 @@ const FieldTable<Spectators>& spectator_fields() {
   static const FieldTable<Spectators> fields = [] {
     FieldTable<Spectators> table;
     table
-        .add("count", "", "", fields::integers(0, 20000), at(&Spectators::count),
-             "Number of spectators.")
+        .add("count", "", "", fields::integers(0, kMaxSpectators), at(&Spectators::count),
+             "Number of spectators, at most as many as there are seats; 20000 on all stands.")
         .required();
     table.add("seed", "", "", fields::integers(0, kMaxId), at(&Spectators::seed),
               "Chooses their seats.");
@@ -72,10 +78,46 @@ const FieldTable<Stand>& stand_fields() {
   return fields;
 }
 
+namespace {
+
+/// Whether the front edge is neither too short nor too long.
+bool has_length(const Stand& stand, const json& value, const FieldLocation& place) {
+  if (!check_ends(stand.from, stand.to, kMinStandM, value, place)) return false;
+  if (length_m(stand) <= kMaxStandM) return true;
+  place.below("to").reject(describe(value["to"]),
+                           fmt::format("an end at most {} m from \"from\"", kMaxStandM));
+  return false;
+}
+
+/// Whether all spectators of the stand have seats, with those of the stands before it.
+void check_seats(const Stand& stand, int before, const FieldLocation& place) {
+  const FieldLocation count = place.below("spectators").below("count");
+  const int spectators = stand.spectators.count;
+  if (place.has_problem()) return;
+  if (const std::size_t free = seats(stand).size(); static_cast<std::size_t>(spectators) > free) {
+    count.reject(std::to_string(spectators), fmt::format("at most {}, its seats", free));
+  } else if (before + spectators > kMaxSpectators) {
+    count.reject(std::to_string(spectators),
+                 fmt::format("at most {} spectators on all stands", kMaxSpectators));
+  }
+}
+
+}  // namespace
+
 void check_stands(Scenario& scenario, const json& list, const FieldLocation& place) {
+  int spectators = 0;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Stand& stand = scenario.stands[i];
-    check_ends(stand.from, stand.to, kMinStandM, list[i], place.below(i));
+    const FieldLocation here = place.below(i);
+    if (!has_length(stand, list[i], here)) continue;
+    check_seats(stand, spectators, here);
+    spectators += stand.spectators.count;
+    if (const std::size_t inner = inner_aisles(stand);
+        static_cast<std::size_t>(stand.vomitories) > inner) {
+      here.below("vomitories")
+          .reject(std::to_string(stand.vomitories),
+                  fmt::format("at most {}, its aisles between blocks of seats", inner));
+    }
   }
   check_ids(scenario.stands, place);
 }
