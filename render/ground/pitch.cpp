@@ -107,7 +107,8 @@ void add_mown_stripes(const world::Scenario& scenario, GroundBuilder& builder) {
     for (double i = 0; i < count; ++i) {
       builder.set_tone(std::fmod(i, 2) < 1 ? kBright : kDark);
       const Vector2d first = axis.from + (i > 0 ? i : -kMarginM / step.norm()) * step;
-      const Vector2d last = axis.from + (i + 1 < count ? i + 1 : count + kMarginM / step.norm()) * step;
+      const Vector2d last =
+          axis.from + (i + 1 < count ? i + 1 : count + kMarginM / step.norm()) * step;
       builder.add_strip({first, last}, -side, side, ground_height::kMownM);
     }
     builder.set_tone(1);

@@ -32,9 +32,8 @@ bool is_apart(const Polygon& polygon, const Polygon& hole) {
   constexpr double kTouchM = 1e-6;
   for (std::size_t i = 0; i < hole.size(); ++i) {
     const GroundSegment side = {hole[i], hole[(i + 1) % hole.size()]};
-    if (std::all_of(polygon.begin(), polygon.end(), [&](const Vector2d& p) {
-          return side.left().dot(p - side.from) < kTouchM;
-        })) {
+    if (std::all_of(polygon.begin(), polygon.end(),
+                    [&](const Vector2d& p) { return side.left().dot(p - side.from) < kTouchM; })) {
       return true;
     }
   }

@@ -12,8 +12,7 @@ namespace throng::render {
 /// Convex parts, counter-clockwise, of the water areas that come after the area with this index;
 /// with none, of all.
 std::vector<std::vector<Eigen::Vector2d>> water_parts(
-    const world::Scenario& scenario,
-    std::size_t after = std::numeric_limits<std::size_t>::max());
+    const world::Scenario& scenario, std::size_t after = std::numeric_limits<std::size_t>::max());
 
 /// The parts of a convex polygon that lie in none of these convex ones.
 std::vector<std::vector<Eigen::Vector2d>> without(

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPieceM = 10;
+constexpr double kRailingPieceM = 10;
 
 /// A footprint as a strip along its longest side.
 struct Strip {
@@ -35,7 +35,8 @@ Strip find_strip(const std::vector<Vector2d>& footprint) {
   const Vector2d v(-u.y(), u.x());
   Eigen::AlignedBox2d bounds;
   for (const Vector2d& p : footprint) bounds.extend(Vector2d(p.dot(u), p.dot(v)));
-  return {bounds.min().x() * u + bounds.center().y() * v, u, bounds.sizes().x(), bounds.sizes().y()};
+  return {bounds.min().x() * u + bounds.center().y() * v, u, bounds.sizes().x(),
+          bounds.sizes().y()};
 }
 
 /// A thin upright bar that is visible from both sides of the strip.
@@ -97,9 +98,10 @@ void add_fence(PropBuilder& builder, double length_m, double high_m, const Vecto
   // Cloth that keeps out wind and looks.
   const double panels = std::max(1.0, std::round(length_m / 2.5));
   for (double i = 0; i < panels; ++i) {
-    constexpr double kCovered = 0.4;
-    if (random.uniform() > kCovered) continue;
-    const Vector3d cloth = random.uniform() < 0.75 ? Vector3d(0.03, 0.06, 0.04) : Vector3d(0.4, 0.4, 0.38);
+    constexpr double kClothShare = 0.4;
+    if (random.uniform() > kClothShare) continue;
+    const Vector3d cloth =
+        random.uniform() < 0.75 ? Vector3d(0.03, 0.06, 0.04) : Vector3d(0.4, 0.4, 0.38);
     const double from = i / panels * length_m + 0.05;
     const double to = (i + 1) / panels * length_m - 0.05;
     for (const double side : {1.0, -1.0}) {
@@ -125,14 +127,14 @@ std::vector<PropMesh> railings(const world::Scenario& scenario, bool semantic) {
     const world::Building& building = scenario.buildings[i];
     if (!is_railing(building) || building.footprint.size() < 3) continue;
     const std::uint32_t id = kIdBuilding + i;
-    PropCells cells(kPieceM, semantic ? id_with_class(id, world::SemanticClass::wall) : id);
+    PropCells cells(kRailingPieceM, semantic ? id_with_class(id, world::SemanticClass::wall) : id);
     const Strip strip = find_strip(building.footprint);
     const bool is_fence = building.facade == world::Facade::fence;
     const Vector3d paint = building.paint ? building.paint->matrix().cast<double>().eval()
                            : is_fence     ? Vector3d(0.36, 0.37, 0.38)
                                           : Vector3d(0.045, 0.055, 0.055);
     const double yaw_rad = std::atan2(strip.along.y(), strip.along.x());
-    const double pieces = std::max(1.0, std::ceil(strip.length_m / kPieceM));
+    const double pieces = std::max(1.0, std::ceil(strip.length_m / kRailingPieceM));
     const double length_m = strip.length_m / pieces;
     Random random(i, Stream::environment, 0xFE2CE);
     for (double k = 0; k < pieces; ++k) {

@@ -35,7 +35,8 @@ std::vector<double> grid_lines(double low, double high, int axis,
   lines.push_back(high + kSurroundingsM);
   for (const auto& hole : holes) {
     for (const Eigen::Vector2d& corner : hole) {
-      lines.push_back(std::clamp(corner[axis], lines.front(), lines[static_cast<std::size_t>(cells) + 2]));
+      lines.push_back(
+          std::clamp(corner[axis], lines.front(), lines[static_cast<std::size_t>(cells) + 2]));
     }
   }
   std::sort(lines.begin(), lines.end());
@@ -73,12 +74,8 @@ class GroundGrid {
 
  private:
   std::uint32_t add_vertex(const Eigen::Vector2d& point) {
-    mesh_.vertices.push_back({three(point.x(), point.y(), 0),
-                              {0, 0, 1},
-                              {ground_tone_at(point)},
-                              kIdGround,
-                              0,
-                              {}});
+    mesh_.vertices.push_back(
+        {three(point.x(), point.y(), 0), {0, 0, 1}, {ground_tone_at(point)}, kIdGround, 0, {}});
     return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
   }
 

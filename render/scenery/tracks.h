@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/props/prop_mesh.h"
-#include "world/ground.h"
+#include "world/scenario.h"
 
 namespace throng::render {
 

@@ -20,10 +20,10 @@ using Eigen::Vector3d;
 
 constexpr double kBelowWaterM = 0.5;  // walls and piers reach below the surface
 constexpr double kAlgaeM = 0.35;
-const Vector3d kStone(0.3, 0.275, 0.235);
-const Vector3d kAlgae(0.05, 0.062, 0.035);
+const Vector3d kAshlar(0.3, 0.275, 0.235);
+const Vector3d kAlgaePaint(0.05, 0.062, 0.035);
 
-const world::Prop kAtOrigin;
+const world::Prop kWaterProp;
 
 Vector3d at(const Vector2d& point, double z) { return {point.x(), point.y(), z}; }
 
@@ -48,7 +48,7 @@ void add_courses(PropBuilder& builder, const GroundSegment& piece, double low_m,
     for (double i = -off; i < blocks; ++i) {
       const Vector2d a = piece.from + std::max(i, 0.0) * step;
       const Vector2d b = piece.from + std::min(i + 1, blocks) * step;
-      add_wall(builder, a, b, z0, z1, random.uniform(0.82, 1.14) * kStone);
+      add_wall(builder, a, b, z0, z1, random.uniform(0.82, 1.14) * kAshlar);
     }
   }
 }
@@ -56,9 +56,9 @@ void add_courses(PropBuilder& builder, const GroundSegment& piece, double low_m,
 void add_ladder(PropBuilder& builder, const GroundSegment& piece, double low_m) {
   const Vector3d steel(0.12, 0.1, 0.085);
   const double x = 0.5 * piece.length_m();
-  builder.placing = Eigen::Translation3d(at(piece.from, 0)) *
-                    Eigen::AngleAxisd(std::atan2(piece.along().y(), piece.along().x()),
-                                      Vector3d::UnitZ());
+  builder.placing =
+      Eigen::Translation3d(at(piece.from, 0)) *
+      Eigen::AngleAxisd(std::atan2(piece.along().y(), piece.along().x()), Vector3d::UnitZ());
   builder.is_near = true;
   for (const double side : {-0.22, 0.22}) {
     builder.box({x + side - 0.02, 0.03, low_m}, {x + side + 0.02, 0.08, 0.1}, steel);
@@ -73,13 +73,14 @@ void add_ladder(PropBuilder& builder, const GroundSegment& piece, double low_m) 
 }  // namespace
 
 PropMesh water_surface(const world::GroundArea& water, std::uint32_t id) {
-  PropBuilder builder(kAtOrigin, id);
+  PropBuilder builder(kWaterProp, id);
   const Vector3d paint(0.030, 0.048, 0.042);
   for (const auto& [a, b, c] : geometry::triangulate(water.corners)) {
     const Vector3d last = at(water.corners[c], water.level_m);
-    builder.quad({at(water.corners[a], water.level_m), at(water.corners[b], water.level_m), last, last},
-                 {Vector3d::UnitZ(), Vector3d::UnitZ(), Vector3d::UnitZ(), Vector3d::UnitZ()}, paint,
-                 Finish::water);
+    builder.quad(
+        {at(water.corners[a], water.level_m), at(water.corners[b], water.level_m), last, last},
+        {Vector3d::UnitZ(), Vector3d::UnitZ(), Vector3d::UnitZ(), Vector3d::UnitZ()}, paint,
+        Finish::water);
   }
   return builder.take();
 }
@@ -101,18 +102,19 @@ std::vector<PropMesh> quay_walls(const world::Scenario& scenario, const world::G
       const Vector2d middle = 0.5 * (piece.from + piece.to);
       PropBuilder& builder = cells.at(middle);
       Random random(++number, Stream::environment, 0x90A7);
-      const bool is_near = (scenario.ground.nearest_point(middle, 0) - middle).norm() < kNearGroundM;
-      add_wall(builder, piece.from, piece.to, water.level_m - kBelowWaterM, line_m, kAlgae);
+      const bool is_near =
+          (scenario.ground.nearest_point(middle, 0) - middle).norm() < kNearGroundM;
+      add_wall(builder, piece.from, piece.to, water.level_m - kBelowWaterM, line_m, kAlgaePaint);
       add_courses(builder, piece, line_m, -0.3, is_near ? 1.6 : kCellM, random);
       // The coping lies on the wall and a little over the water.
       const Vector2d over = kCopingM * piece.left();
-      add_wall(builder, piece.from + over, piece.to + over, -0.3, -0.03, 1.15 * kStone);
+      add_wall(builder, piece.from + over, piece.to + over, -0.3, -0.03, 1.15 * kAshlar);
       builder.quad({at(piece.from, -0.03), at(piece.to, -0.03), at(piece.to + over, -0.03),
                     at(piece.from + over, -0.03)},
-                   1.2 * kStone, Finish::matt);
+                   1.2 * kAshlar, Finish::matt);
       builder.quad({at(piece.from + over, -0.3), at(piece.to + over, -0.3), at(piece.to, -0.3),
                     at(piece.from, -0.3)},
-                   0.8 * kStone, Finish::matt);
+                   0.8 * kAshlar, Finish::matt);
       if (is_near) add_ladder(builder, piece, water.level_m);
     }
   }
@@ -124,14 +126,14 @@ std::vector<PropMesh> quay_walls(const world::Scenario& scenario, const world::G
 namespace {
 
 /// The part of a deck over water, along the deck's longest side.
-struct Span {
+struct BridgeSpan {
   Vector2d origin = Vector2d::Zero();
   Vector2d along = Vector2d::UnitX();
   double length_m = 0;
   double half_width_m = 0;
 };
 
-std::optional<Span> find_span(const world::GroundArea& deck, const world::GroundArea& water) {
+std::optional<BridgeSpan> find_span(const world::GroundArea& deck, const world::GroundArea& water) {
   Vector2d longest = Vector2d::Zero();
   for (std::size_t i = 0; i < deck.corners.size(); ++i) {
     const Vector2d edge = deck.corners[(i + 1) % deck.corners.size()] - deck.corners[i];
@@ -154,10 +156,10 @@ std::optional<Span> find_span(const world::GroundArea& deck, const world::Ground
   constexpr double kMinM = 1;
   if (over.isEmpty() || over.sizes().minCoeff() < kMinM) return std::nullopt;
   const double middle = across.center()(0);
-  return Span{over.min().x() * u + middle * v, u, over.sizes().x(), 0.5 * across.sizes()(0)};
+  return BridgeSpan{over.min().x() * u + middle * v, u, over.sizes().x(), 0.5 * across.sizes()(0)};
 }
 
-constexpr double kSlabM = 0.35;  // height of the beams along the deck's edges
+constexpr double kBridgeSlabM = 0.35;  // height of the beams along the deck's edges
 
 /// A wall across the plane y of the span's frame, between two curves of heights.
 void add_side(PropBuilder& builder, double y, double x0, double x1, const Vector2d& low,
@@ -184,16 +186,16 @@ void add_arch(PropBuilder& builder, double x0, double x1, double half_m, double 
     const double a = x0 + (x1 - x0) * i / kSteps;
     const double b = x0 + (x1 - x0) * (i + 1) / kSteps;
     const Vector2d low(height(a), height(b));
-    const Vector2d ring = (low.array() + kRingM).min(-kSlabM);
-    const Vector2d top(-kSlabM, -kSlabM);
+    const Vector2d ring = (low.array() + kRingM).min(-kBridgeSlabM);
+    const Vector2d top(-kBridgeSlabM, -kBridgeSlabM);
     for (const double y : {-half_m, half_m}) {
-      add_side(builder, y, a, b, ring, top, random.uniform(0.9, 1.06) * kStone);
+      add_side(builder, y, a, b, ring, top, random.uniform(0.9, 1.06) * kAshlar);
       add_side(builder, y * (1 + 0.04 / half_m), a, b, low, ring,
-               random.uniform(1.05, 1.3) * kStone);
+               random.uniform(1.05, 1.3) * kAshlar);
     }
     builder.quad({Vector3d(a, half_m, low.x()), Vector3d(b, half_m, low.y()),
                   Vector3d(b, -half_m, low.y()), Vector3d(a, -half_m, low.x())},
-                 0.8 * kStone, Finish::matt);
+                 0.8 * kAshlar, Finish::matt);
   }
 }
 
@@ -224,11 +226,11 @@ void add_pier(PropBuilder& builder, double x, double half_x, double half_y, doub
     builder.quad({r[0], r[2], r[3], r[5]}, paint, Finish::matt);
     builder.quad({r[3], r[4], r[5], r[5]}, paint, Finish::matt);
   };
-  wall(0.25, low, level_m + 0.1, kAlgae);
-  lid(ring(0.25, level_m + 0.1), kAlgae);
-  wall(0, level_m, level_m + kAlgaeM, kAlgae);
-  wall(0, level_m + kAlgaeM, cap, kStone);
-  lid(wall(0.08, cap, cap + 0.18, 1.15 * kStone), 1.2 * kStone);
+  wall(0.25, low, level_m + 0.1, kAlgaePaint);
+  lid(ring(0.25, level_m + 0.1), kAlgaePaint);
+  wall(0, level_m, level_m + kAlgaeM, kAlgaePaint);
+  wall(0, level_m + kAlgaeM, cap, kAshlar);
+  lid(wall(0.08, cap, cap + 0.18, 1.15 * kAshlar), 1.2 * kAshlar);
 }
 
 }  // namespace
@@ -238,27 +240,27 @@ PropMesh bridge_below(const world::GroundArea& deck, const world::GroundArea& wa
   constexpr double kSpanM = 14;
   constexpr double kPierM = 0.8;  // half its thickness
   constexpr double kMinRiseM = 0.9;
-  PropBuilder builder(kAtOrigin, id);
-  const std::optional<Span> span = find_span(deck, water);
+  PropBuilder builder(kWaterProp, id);
+  const std::optional<BridgeSpan> span = find_span(deck, water);
   if (!span) return builder.take();
-  builder.placing = Eigen::Translation3d(at(span->origin, 0)) *
-                    Eigen::AngleAxisd(std::atan2(span->along.y(), span->along.x()),
-                                      Vector3d::UnitZ());
+  builder.placing =
+      Eigen::Translation3d(at(span->origin, 0)) *
+      Eigen::AngleAxisd(std::atan2(span->along.y(), span->along.x()), Vector3d::UnitZ());
   const double length = span->length_m;
   const double half = span->half_width_m;
   const double foot = water.level_m + 0.5;
-  const double crown = -kSlabM - 0.3;
+  const double crown = -kBridgeSlabM - 0.3;
   const double count = std::max(1.0, std::round(length / kSpanM));
   Random random(static_cast<std::uint64_t>(10 * length), Stream::environment, 0xB21D6E);
   // Edge beams with a cornice, a little wider than the deck.
   for (const double side : {-1.0, 1.0}) {
     const double y = side * (half + 0.1);
-    builder.box({0, std::min(y, y - 0.3 * side), -kSlabM}, {length, std::max(y, y - 0.3 * side), -0.012},
-                1.15 * kStone);
+    builder.box({0, std::min(y, y - 0.3 * side), -kBridgeSlabM},
+                {length, std::max(y, y - 0.3 * side), -0.012}, 1.15 * kAshlar);
   }
-  builder.quad({Vector3d(0, half, -kSlabM), Vector3d(length, half, -kSlabM),
-                Vector3d(length, -half, -kSlabM), Vector3d(0, -half, -kSlabM)},
-               0.7 * kStone, Finish::matt);
+  builder.quad({Vector3d(0, half, -kBridgeSlabM), Vector3d(length, half, -kBridgeSlabM),
+                Vector3d(length, -half, -kBridgeSlabM), Vector3d(0, -half, -kBridgeSlabM)},
+               0.7 * kAshlar, Finish::matt);
   const double apart = length / count;
   const bool has_arches = crown - foot > kMinRiseM;
   for (double i = 0; i < count; ++i) {
@@ -267,11 +269,14 @@ PropMesh bridge_below(const world::GroundArea& deck, const world::GroundArea& wa
     if (has_arches) {
       add_arch(builder, x0, x1, half, foot, crown, random);
     } else {
-      builder.box({x0, -half + 0.6, -kSlabM - 0.5}, {x1, half - 0.6, -kSlabM + 0.05}, 0.9 * kStone);
+      builder.box({x0, -half + 0.6, -kBridgeSlabM - 0.5}, {x1, half - 0.6, -kBridgeSlabM + 0.05},
+                  0.9 * kAshlar);
     }
     if (i > 0) {
-      add_pier(builder, i * apart, kPierM, half, water.level_m, has_arches ? foot : -kSlabM - 0.8);
-      builder.box({i * apart - kPierM, -half, foot}, {i * apart + kPierM, half, -kSlabM}, kStone);
+      add_pier(builder, i * apart, kPierM, half, water.level_m,
+               has_arches ? foot : -kBridgeSlabM - 0.8);
+      builder.box({i * apart - kPierM, -half, foot}, {i * apart + kPierM, half, -kBridgeSlabM},
+                  kAshlar);
     }
   }
   return builder.take();
