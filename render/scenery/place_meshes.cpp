@@ -41,7 +41,7 @@ void add_building_details(const world::Scenario& scenario, bool semantic,
                           std::vector<PlacedProp>& props) {
   constexpr double kFrontsWithinM = 70;
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
-    if (is_railing(scenario.buildings[i])) continue;
+    if (has_no_walls(scenario.buildings[i])) continue;
     const BuildingModel model = building_model(scenario.buildings[i], i);
     const auto id_of = [&](world::SemanticClass value) {
       return semantic ? id_with_class(kIdBuilding + i, value) : kIdBuilding + i;

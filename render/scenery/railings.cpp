@@ -117,19 +117,20 @@ void add_fence(PropBuilder& builder, double length_m, double high_m, const Vecto
 
 }  // namespace
 
-bool is_railing(const world::Building& building) {
-  return building.facade == world::Facade::railing || building.facade == world::Facade::fence;
+bool has_no_walls(const world::Building& building) {
+  return building.facade == world::Facade::railing || building.facade == world::Facade::fence ||
+         building.facade == world::Facade::stand;
 }
 
 std::vector<PropMesh> railings(const world::Scenario& scenario, bool semantic) {
   std::vector<PropMesh> meshes;
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
     const world::Building& building = scenario.buildings[i];
-    if (!is_railing(building) || building.footprint.size() < 3) continue;
+    const bool is_fence = building.facade == world::Facade::fence;
+    if (!is_fence && building.facade != world::Facade::railing) continue;
     const std::uint32_t id = kIdBuilding + i;
     PropCells cells(kRailingPieceM, semantic ? id_with_class(id, world::SemanticClass::wall) : id);
     const Strip strip = find_strip(building.footprint);
-    const bool is_fence = building.facade == world::Facade::fence;
     const Vector3d paint = building.paint ? building.paint->matrix().cast<double>().eval()
                            : is_fence     ? Vector3d(0.36, 0.37, 0.38)
                                           : Vector3d(0.045, 0.055, 0.055);

@@ -8,8 +8,8 @@
 
 namespace throng::render {
 
-/// Whether a building is drawn by railings().
-bool is_railing(const world::Building& building);
+/// Whether a building has no walls and no roof: a railing, a fence, or the block of a stand.
+bool has_no_walls(const world::Building& building);
 
 /// The railings and fences of a scenario along the axes of their footprints, by cells, with the ids
 /// of their buildings; bars and wires are details.

@@ -123,7 +123,7 @@ SceneryMesh scenery_mesh(const world::Scenario& scenario) {
   const auto indices = [&] { return static_cast<std::uint32_t>(mesh.indices.size()); };
   std::vector<BuildingModel> models;
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
-    if (is_railing(scenario.buildings[i])) continue;
+    if (has_no_walls(scenario.buildings[i])) continue;
     models.push_back(building_model(without_leaves(scenario.buildings[i]), i));
   }
   for (const BuildingModel& model : models) add_walls(model, mesh);
