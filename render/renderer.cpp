@@ -14,6 +14,7 @@
 #include "render/gl/target.h"
 #include "render/light/place_light.h"
 #include "render/passes/airframe_pass.h"
+#include "render/passes/beam_pass.h"
 #include "render/passes/contact_pass.h"
 #include "render/passes/prop_pass.h"
 #include "render/passes/scenery_pass.h"
@@ -126,6 +127,7 @@ struct Renderer::State {
   PeoplePass people_pass;
   SkyPass sky;
   SmokePass smoke;
+  BeamPass beams;
   ShadowMap shadow_map;
   ShadowMap metering_shadows;
   std::vector<Vehicle> vehicles;
@@ -168,6 +170,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       people_pass(people, air, quality, light_words(environment, scenario.disasters), color_apart),
       sky(environment),
       smoke(environment, scenario.disasters, air),
+      beams(scenario, daylight.lamps_on, light_words(environment, scenario.disasters)),
       shadow_map(quality.shadow_texels),
       metering_shadows(quality.shadow_texels / kShadowTexelsPerMeteringTexel),
       view_buffer(make_buffer()),
@@ -295,6 +298,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   sky.draw_sky(camera);
   draw_backdrop(camera, kept);
   smoke.draw(scene, camera);
+  beams.draw(scene);
   sky.draw_rain(camera, scene.index);
 }
 

@@ -15,6 +15,9 @@ using Eigen::Vector3f;
 /// Rays begin so far above a surface: more than layers of ground lie apart (ground_layers.cpp).
 constexpr float kOffM = 0.02F;
 
+/// Side of the cells that know which lamps may reach them.
+constexpr float kLampCellM = 26;
+
 /// Bounces of baked light.
 constexpr int kBakedBounces = 2;
 
@@ -71,20 +74,24 @@ LightRays::LightRays(const RayScene& scene, const SkyLight& sky, const Daylight&
       lamps_(std::move(lamps)) {
   if (lamps_.empty()) return;
   Eigen::AlignedBox2f bounds;
-  for (const Lamp& lamp : lamps_) bounds.extend(lamp.position.head<2>().cast<float>());
-  const auto reach = static_cast<float>(kLampReachM);
-  cells_from_ = bounds.min().array() - reach;
-  cells_ = ((bounds.sizes().array() + 2 * reach) / reach).ceil().cast<int>().max(1);
+  for (const Lamp& lamp : lamps_) {
+    const Eigen::Vector2f at = lamp.position.head<2>().cast<float>();
+    const auto reach = static_cast<float>(lamp_reach_m(lamp));
+    bounds.extend(Eigen::Vector2f(at.array() - reach));
+    bounds.extend(Eigen::Vector2f(at.array() + reach));
+  }
+  cells_from_ = bounds.min();
+  cells_ = (bounds.sizes().array() / kLampCellM).ceil().cast<int>().max(1);
   lamps_by_cell_.resize(static_cast<std::size_t>(cells_.x()) *
                         static_cast<std::size_t>(cells_.y()));
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
-    const Eigen::Vector2f at = (lamps_[i].position.head<2>().cast<float>() - cells_from_) / reach;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const Eigen::Vector2i cell(static_cast<int>(at.x()) + dx, static_cast<int>(at.y()) + dy);
-        if ((cell.array() < 0).any() || (cell.array() >= cells_.array()).any()) continue;
-        lamps_by_cell_[cell_index(cell)].push_back(i);
-      }
+    const Eigen::Vector2f at = lamps_[i].position.head<2>().cast<float>() - cells_from_;
+    const auto reach = static_cast<float>(lamp_reach_m(lamps_[i]));
+    const Eigen::Array2i low = ((at.array() - reach) / kLampCellM).floor().cast<int>().max(0);
+    const Eigen::Array2i high =
+        ((at.array() + reach) / kLampCellM).floor().cast<int>().min(cells_.array() - 1);
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) lamps_by_cell_[cell_index({x, y})].push_back(i);
     }
   }
 }
@@ -97,7 +104,7 @@ std::size_t LightRays::cell_index(const Eigen::Vector2i& cell) const {
 const std::vector<std::size_t>& LightRays::lamps_near(const Vector3f& point) const {
   static const std::vector<std::size_t> kNone;
   if (lamps_.empty()) return kNone;
-  const Eigen::Vector2f at = (point.head<2>() - cells_from_) / static_cast<float>(kLampReachM);
+  const Eigen::Vector2f at = (point.head<2>() - cells_from_) / kLampCellM;
   const Eigen::Vector2i cell = at.array().floor().cast<int>();
   if ((cell.array() < 0).any() || (cell.array() >= cells_.array()).any()) return kNone;
   return lamps_by_cell_[cell_index(cell)];
@@ -106,12 +113,12 @@ const std::vector<std::size_t>& LightRays::lamps_near(const Vector3f& point) con
 std::optional<LightRays::Beam> LightRays::beam(const Lamp& lamp, const Vector3f& point) const {
   const Vector3f to_lamp = lamp.position.cast<float>() - point;
   const float distance = to_lamp.norm();
-  if (distance > static_cast<float>(kLampReachM) || distance < 0.05F) return std::nullopt;
+  if (distance > static_cast<float>(lamp_reach_m(lamp)) || distance < 0.05F) return std::nullopt;
   if (lamp.away.cast<float>().dot(to_lamp.head<2>()) > 0.05F) return std::nullopt;
   const Vector3f direction = to_lamp / distance;
   const auto strength = static_cast<float>(lamp_strength(lamp, distance, direction.z()));
   if (strength <= 0) return std::nullopt;
-  return Beam{direction, strength, distance};
+  return Beam{direction, strength, lamp.color.cast<float>(), distance};
 }
 
 // One lamp, chosen in proportion to its light, stands for all.
@@ -131,7 +138,7 @@ Array3f LightRays::one_lamp(const Vector3f& point, const Vector3f& normal,
     const auto chosen = beam(lamps_[i], point);
     if (!chosen || !scene_.is_free(point, chosen->direction, chosen->distance_m - 0.3F))
       return Array3f::Zero();
-    return lamp_color_ * sum;
+    return lamp_color_ * chosen->color * sum;
   }
   return Array3f::Zero();
 }
@@ -177,9 +184,10 @@ Array3f LightRays::radiance(const Vector3f& from, const Vector3f& direction, int
 
 std::optional<Array3f> LightRays::received(const Vector3f& point, const Vector3f& normal,
                                            int paths) const {
-  // Not below the layers of the ground, on which walls and props stand.
+  // Not below the layers of the ground, on which walls and props stand; but banks and bridges are.
+  constexpr float kSunkM = -0.02F;
   Vector3f origin = point + kOffM * normal;
-  origin.z() = std::max(origin.z(), kOffM);
+  if (origin.z() > kSunkM) origin.z() = std::max(origin.z(), kOffM);
   Array3f sum = Array3f::Zero();
   int behind = 0;
   for (int i = 0; i < paths; ++i) {
@@ -196,7 +204,7 @@ std::optional<Array3f> LightRays::received(const Vector3f& point, const Vector3f
     if (!lamp) continue;
     const float facing = lamp->direction.dot(normal);
     if (facing <= 0 || !scene_.is_free(origin, lamp->direction, lamp->distance_m - 0.3F)) continue;
-    sum += lamp_color_ * (lamp->strength * facing);
+    sum += lamp_color_ * lamp->color * (lamp->strength * facing);
   }
   return sum;
 }
@@ -226,7 +234,7 @@ std::optional<LightField> LightRays::field(const Vector3f& point, int paths,
     const std::optional<Beam> lamp = beam(lamps_[i], point);
     if (!lamp || !scene_.is_free(point, lamp->direction, lamp->distance_m - 0.3F, skipped_m))
       continue;
-    add(lamp->direction, lamp_color_ * lamp->strength, 0.25F, 0.5F);
+    add(lamp->direction, lamp_color_ * lamp->color * lamp->strength, 0.25F, 0.5F);
   }
   return field;
 }

@@ -68,6 +68,7 @@ class LightRays {
   struct Beam {
     Eigen::Vector3f direction;
     float strength = 0;  ///< on a surface that faces it, in units of lamp light
+    Eigen::Array3f color;
     float distance_m = 0;
   };
   std::optional<Beam> beam(const Lamp& lamp, const Eigen::Vector3f& point) const;

@@ -202,6 +202,7 @@ std::string light_key(const RayScene& rays, const Environment& environment, cons
     for (const double value : lamp.position) add(value);
     for (const double value : lamp.away) add(value);
     add(lamp.strength);
+    for (const double value : lamp.color) add(value);
   }
   for (const Point& point : points.all()) {
     append(bytes, {point.position.data(), 3});

@@ -283,14 +283,38 @@ void add_shape(std::string_view name, PropBuilder& builder) {
   }
 }
 
-std::vector<ShapeLamp> shape_lamps(std::string_view name) {
-  std::vector<ShapeLamp> lamps;
+namespace {
+
+/// The lights of a list of a file, read by `read`.
+template <typename Light, typename Read>
+std::vector<Light> shape_lights(std::string_view name, const char* list, const Read& read) {
+  std::vector<Light> lights;
   const auto file = shape_files().find(std::string(name));
-  if (file == shape_files().end()) return lamps;
-  for (const json& lamp : file->value("lamps", json::array())) {
-    lamps.push_back({point(lamp.at("at")), lamp.at("strength")});
+  if (file == shape_files().end()) return lights;
+  for (const json& light : file->value(list, json::array())) {
+    lights.push_back(read(light));
+    lights.back().position = point(light.at("at"));
+    lights.back().color = point(light.value("color", json{1, 1, 1})).array();
   }
-  return lamps;
+  return lights;
+}
+
+}  // namespace
+
+std::vector<ShapeLamp> shape_lamps(std::string_view name) {
+  return shape_lights<ShapeLamp>(name, "lamps", [](const json& light) {
+    ShapeLamp lamp;
+    lamp.strength = light.at("strength");
+    return lamp;
+  });
+}
+
+std::vector<ShapeBeam> shape_beams(std::string_view name) {
+  return shape_lights<ShapeBeam>(name, "beams", [](const json& light) {
+    ShapeBeam beam;
+    beam.direction = point(light.at("towards")).normalized();
+    return beam;
+  });
 }
 
 }  // namespace throng::render

@@ -11,7 +11,8 @@
 // adds the same across "x", "y" or both; "repeat" {count, step, turn_deg} adds copies, each a step
 // or a turn about the origin further, or is a list of repeats. "chance" decides for each copy.
 // "paint" is a name or a list to choose from for each copy, "shade" and "vary" multiply it, "near"
-// marks details. "two_sided" quads are cloths; "sides" are those of round surfaces.
+// marks details. "two_sided" quads are cloths; "sides" are those of round surfaces. "lamps" {at,
+// strength, color} and "beams" {at, towards, color} of a file shine after sunset.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,10 +23,18 @@
 
 namespace throng::render {
 
-/// A lamp of a shape, in the prop's frame (m), and its strength relative to a lamp post's.
+/// A lamp of a shape, in the prop's frame (m), with strength and color relative to a lamp post's.
 struct ShapeLamp {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double strength = 1;
+  Eigen::Array3d color = Eigen::Array3d::Ones();
+};
+
+/// A beam of a shape that shows in haze after sunset, in the prop's frame, and its color.
+struct ShapeBeam {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< m
+  Eigen::Vector3d direction = -Eigen::Vector3d::UnitZ();  ///< around which it sweeps
+  Eigen::Array3d color = Eigen::Array3d::Ones();
 };
 
 /// Names of all files, sorted: kinds of props, and what several of them use.
@@ -34,7 +43,8 @@ std::vector<std::string_view> shape_names();
 /// Adds the shape of a file.
 void add_shape(std::string_view name, PropBuilder& builder);
 
-/// The lamps of a file; none if there is no such file.
+/// The lamps and the beams of a file; none if there is no such file.
 std::vector<ShapeLamp> shape_lamps(std::string_view name);
+std::vector<ShapeBeam> shape_beams(std::string_view name);
 
 }  // namespace throng::render

@@ -21,7 +21,8 @@ void add_prop_lamps(const world::Prop& prop, std::vector<Lamp>& lamps) {
   for (const ShapeLamp& lamp : shape_lamps(world::prop_type(prop.kind).name)) {
     const Eigen::Vector2d at =
         prop.position + prop.scale * (Eigen::Rotation2Dd(prop.yaw_rad) * lamp.position.head<2>());
-    lamps.push_back({{at.x(), at.y(), prop.scale * lamp.position.z()}, {0, 0}, lamp.strength});
+    lamps.push_back(
+        {{at.x(), at.y(), prop.scale * lamp.position.z()}, {0, 0}, lamp.strength, lamp.color});
   }
 }
 
@@ -55,11 +56,18 @@ std::vector<Lamp> all_lamps(const world::Scenario& scenario) {
   return lamps;
 }
 
+double lamp_reach_m(const Lamp& lamp) {
+  constexpr double kReachM = 26;
+  constexpr double kStrong = 1.5;
+  constexpr double kMaxFactor = 4;
+  return kReachM * std::clamp(std::sqrt(lamp.strength / kStrong), 1.0, kMaxFactor);
+}
+
 double lamp_strength(const Lamp& lamp, double distance_m, double up) {
   // Street lamps throw their light wide, and little of it above the horizontal.
   constexpr double kUpwards = 0.1;
   const double down = std::max(std::sqrt(std::max(up, 0.0)), kUpwards);
-  const double rim = 1 - std::pow(distance_m / kLampReachM, 4);
+  const double rim = 1 - std::pow(distance_m / lamp_reach_m(lamp), 4);
   // A lamp is no point: what hangs on its wall is not lit without limit.
   constexpr double kSizeM = 0.7;
   return lamp.strength * kStrengthM2 * down * rim * rim /

@@ -130,9 +130,14 @@ void main() {
   }
 #endif
 #ifdef SCREEN
-  vec2 place = floor(vec2(world.x + world.y, world.z) * 2.5) / 2.5;
-  vec3 shown = screen_image(place * 0.11, light.eye.w);
-  radiance += 0.2 * shown * received;
+  vec2 place = vec2(world.x + world.y, world.z);
+  vec3 shown = screen_image(0.14 * floor(place * 12.0) / 12.0, light.eye.w);
+  // Cabinets half a meter wide differ a little, and have seams.
+  vec2 cabinet = floor(place * 2.0);
+  vec2 in_cabinet = fract(place * 2.0);
+  float seam = step(0.015, min(min(in_cabinet.x, 1.0 - in_cabinet.x), min(in_cabinet.y, 1.0 - in_cabinet.y)));
+  shown *= (0.97 + 0.05 * fract(dot(cabinet, vec2(0.37, 0.71)))) * (0.75 + 0.25 * seam);
+  radiance += shown * (0.45 * light.sky.rgb + 0.12 * light.sun.rgb);
 #ifdef LAMPS
   radiance += light.lamps.rgb * (8.0e-4 * shown);
 #endif
