@@ -21,10 +21,16 @@ inline constexpr double kTimeSlackS = 1e-6;
 
 enum class AgentRole : std::uint8_t {
   person = 0,
-  disaster = 1,  ///< represents a disaster; neither rendered nor counted
-  absent = 2,    ///< part of the scenario but not of this run; neither rendered nor counted
-  attacker = 3,  ///< represents a disaster and is a person: rendered and labeled, but not counted
+  disaster = 1,   ///< represents a disaster; neither rendered nor counted
+  absent = 2,     ///< part of the scenario but not of this run; neither rendered nor counted
+  attacker = 3,   ///< represents a disaster and is a person: rendered and labeled, but not counted
+  spectator = 4,  ///< stays on a stand: rendered and labeled, but not counted
 };
+
+/// Whether agents with this role are people who are rendered and labeled.
+constexpr bool is_visible_person(AgentRole role) {
+  return role == AgentRole::person || role == AgentRole::attacker || role == AgentRole::spectator;
+}
 
 /// Bits of Trace::flags. kPresent: the agent takes part, that is, has arrived and not left yet.
 /// kPanicked: is in panic. kFallen: has fallen and lies on the ground. kFollowing: heads for the

@@ -130,6 +130,10 @@ std::map<std::string, int> number_textures(const DressedPerson& dressed) {
 void add_telling_poses(const Clip& clip, const std::vector<Palette>& palettes,
                        std::vector<Palette>& poses) {
   const bool is_fast = clip.name == "run" || clip.name == "panic";
+  // Levels of detail stay those of people who walk.
+  const bool is_on_stand = clip.name == "sit" || clip.name == "sit_forward" ||
+                           clip.name == "rise" || clip.name == "cheer";
+  if (is_on_stand) return;
   // No divisors of the frames of a stride.
   const std::size_t step = clip.name.starts_with("fall") ? 1 : is_fast ? 3 : 7;
   for (std::size_t frame = 0; frame < palettes.size(); ++frame) {
