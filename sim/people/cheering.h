@@ -7,7 +7,7 @@
 
 namespace throng::sim {
 
-/// What a person on a stand does.
+/// The posture of a person on a stand.
 enum class Posture : std::uint8_t { sitting, standing, cheering };
 
 /// How long people take to get up or to sit down.

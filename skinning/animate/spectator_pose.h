@@ -12,7 +12,7 @@
 
 namespace throng::skinning {
 
-/// What somebody on a stand does.
+/// The posture of somebody on a stand.
 enum class StandPosture : std::uint8_t { sitting, standing, cheering };
 inline constexpr std::array<std::string_view, 3> kStandPostureNames = {"sitting", "standing",
                                                                        "cheering"};
