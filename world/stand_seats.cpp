@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kBlockM = 11;
 constexpr double kTwoAislesM = 3.4;  // shorter stands have one
-constexpr double kRoundingM = 1e-9;
+constexpr double kSeatSlackM = 1e-9;
 
 /// Number of blocks and their length (m).
 struct Blocks {
@@ -45,7 +45,7 @@ bool is_open(std::span<const Vomitory> openings, int row, double along_m) {
   return std::any_of(openings.begin(), openings.end(), [&](const Vomitory& opening) {
     return row >= opening.first_row && row < opening.end_row &&
            std::abs(along_m - opening.along_m) <
-               0.5 * (kVomitoryWidthM + kSeatSpacingM) - kRoundingM;
+               0.5 * (kVomitoryWidthM + kSeatSpacingM) - kSeatSlackM;
   });
 }
 
@@ -127,7 +127,7 @@ std::vector<Vomitory> vomitories(const Stand& stand) {
     const double wanted_m = length_m(stand) * (i + 0.5) / stand.vomitories;
     std::size_t nearest = 1;
     for (std::size_t k = 2; k <= inner; ++k) {
-      const double nearer_m = std::abs(stairs[nearest].along_m - wanted_m) - kRoundingM;
+      const double nearer_m = std::abs(stairs[nearest].along_m - wanted_m) - kSeatSlackM;
       if (std::abs(stairs[k].along_m - wanted_m) < nearer_m) nearest = k;
     }
     if (!openings.empty() && openings.back().aisle == nearest) continue;
@@ -140,7 +140,7 @@ std::vector<Vomitory> vomitories(const Stand& stand) {
 std::vector<Seat> seats(const Stand& stand) {
   const Blocks blocks = block_layout(stand);
   const std::vector<Vomitory> openings = vomitories(stand);
-  const int in_block = static_cast<int>(std::floor(blocks.length_m / kSeatSpacingM + kRoundingM));
+  const int in_block = static_cast<int>(std::floor(blocks.length_m / kSeatSpacingM + kSeatSlackM));
   const double margin_m = 0.5 * (blocks.length_m - in_block * kSeatSpacingM);
   std::vector<Seat> found;
   for (int row = 0; row < stand.rows; ++row) {

@@ -15,7 +15,7 @@ namespace {
 // From the seat's surface to the hip joints, as a share of stature.
 constexpr double kHipsShare = 0.05;
 
-double wave(double phase) { return std::sin(2 * std::numbers::pi * phase); }
+double swing(double phase) { return std::sin(2 * std::numbers::pi * phase); }
 
 Eigen::Vector3f joint(const Walker& walker, Bone bone) { return walker.joints[index_from(bone)]; }
 
@@ -88,14 +88,14 @@ Figure cheer(const Walker& walker, double raised, double phase) {
   const double strength = raised * walker.manner.liveliness;
   Trunk trunk;
   trunk.lean = (1 - 4 * raised) * kDegree;
-  trunk.chest_yaw = 5 * kDegree * strength * wave(phase);
-  trunk.tilt = 1.5 * kDegree * strength * wave(phase + 0.25);
+  trunk.chest_yaw = 5 * kDegree * strength * swing(phase);
+  trunk.tilt = 1.5 * kDegree * strength * swing(phase + 0.25);
   trunk.head_down = -12 * kDegree * raised;
   pose_trunk(walker, trunk, figure.pose);
   const Manner& manner = walker.manner;
   const auto arm = [&](double own) {
-    return Arm{1 + raised * (148 + 12 * wave(own)),
-               11 + manner.elbow_deg + raised * (18 + 16 * wave(own + 0.2)),
+    return Arm{1 + raised * (148 + 12 * swing(own)),
+               11 + manner.elbow_deg + raised * (18 + 16 * swing(own + 0.2)),
                manner.arms_out_deg + 6 * raised, 6, 22 * raised};
   };
   pose_arms(walker, {arm(phase), arm(phase + 0.12)}, figure.pose);

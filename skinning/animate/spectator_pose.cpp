@@ -20,7 +20,7 @@ constexpr double kWaveS = 1.3;
 constexpr double kLeanForward = 0.4;  // share of people
 
 /// From 0 to 1 within `ramp_s` from `from_s` after the last change on, and back before the next.
-double held(const PostureTime& posture, double from_s, double ramp_s) {
+double kept(const PostureTime& posture, double from_s, double ramp_s) {
   return std::min(smoothstep((posture.since_s - from_s) / ramp_s),
                   smoothstep(posture.until_s / ramp_s));
 }
@@ -58,7 +58,7 @@ PoseBlend SpectatorPoses::seated(const PostureTime& posture, double phase, doubl
     return blend_frame(*rise_, (1 - smoothstep(posture.since_s / kRiseS)) * (rise_->frames - 1));
   }
   const double from_s = sits_down ? down_s : -10;
-  const double looks = held(posture, from_s + kSettleS, kLookS);
+  const double looks = kept(posture, from_s + kSettleS, kLookS);
   if (!leans_forward(phase) || sit_forward_ == nullptr) return looking(*sit_, looks, phase, time_s);
   const double leans = std::min(smoothstep((posture.since_s - from_s) / kSettleS),
                                 smoothstep(posture.until_s / kSettleS));
@@ -68,7 +68,7 @@ PoseBlend SpectatorPoses::seated(const PostureTime& posture, double phase, doubl
   }
   const double until_s = posture.until_s - kSettleS;
   const PostureTime inner{posture.now, posture.before, posture.since_s, until_s};
-  return looking(*sit_forward_, held(inner, from_s + kSettleS, kLookS), phase, time_s);
+  return looking(*sit_forward_, kept(inner, from_s + kSettleS, kLookS), phase, time_s);
 }
 
 PoseBlend SpectatorPoses::upright(const PostureTime& posture, double phase, double time_s) const {
@@ -78,9 +78,9 @@ PoseBlend SpectatorPoses::upright(const PostureTime& posture, double phase, doub
   }
   const double from_s = gets_up ? kRiseS : posture.before == posture.now ? -10 : 0;
   if (posture.now != StandPosture::cheering || cheer_ == nullptr) {
-    return looking(*idle_, held(posture, from_s, kLookS), phase, time_s);
+    return looking(*idle_, kept(posture, from_s, kLookS), phase, time_s);
   }
-  const double raised = held(posture, from_s, kArmsS);
+  const double raised = kept(posture, from_s, kArmsS);
   if (raised < 1) return blend_frame(*cheer_, raised * kCheerRaisedFrame);
   // Whole waves, between the raising of the arms and their lowering.
   const double waved_s = posture.since_s - from_s - kArmsS;
