@@ -8,7 +8,7 @@
 namespace throng::sim {
 
 /// The posture of a person on a stand.
-enum class Posture : std::uint8_t { sitting, standing, cheering };
+enum class Posture : std::uint8_t { sitting, standing, cheering, leaving };
 
 /// How long people take to get up or to sit down.
 inline constexpr double kRiseS = 0.8;

@@ -47,10 +47,10 @@ StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& s
     starting.crowd = simulated(*std::move(people));
   }
   starting.roles = starting_roles(scenario, spec, starting.crowd->positions().size(), problems);
+  starting.crowd = with_spectators(std::move(starting.crowd), scenario, spec.seed, problems);
   for (std::size_t i = 0; i < starting.roles.size(); ++i) {
     starting.crowd->set_present(i, starting.roles[i] != world::AgentRole::absent);
   }
-  starting.crowd = with_spectators(std::move(starting.crowd), scenario, spec.seed);
   starting.roles.resize(starting.crowd->positions().size(), world::AgentRole::spectator);
   return starting;
 }
