@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +45,10 @@ inline constexpr std::uint8_t kFollowing = 8;
 /// Whether people in a state with this name lie on the ground, for behaviors that do not declare
 /// it: whether the name contains one of the words in docs/trace.md, ignoring case.
 bool implies_lying(std::string_view state_name);
+
+/// States of people on stands (world/stand.h), the last ones of runs with spectators.
+inline constexpr std::array<std::string_view, 4> kStandStates = {"sitting", "standing", "cheering",
+                                                                 "leaving"};
 
 /// Pedestrian model and settings that determine how the people of a run walk; the words are those
 /// of `crowd` in jobs (docs/job.md).
@@ -85,6 +91,8 @@ struct TraceHeader {
   std::size_t agent_count() const { return role.size(); }
   /// Returns per state whether people in it lie on the ground.
   std::vector<bool> lying_states() const;
+  /// Index of the first of kStandStates; nothing for runs without spectators.
+  std::optional<std::size_t> first_stand_state() const;
 };
 
 /// The state of all agents at one crowd step; arrays have one entry per agent.

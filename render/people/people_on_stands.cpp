@@ -34,11 +34,12 @@ float StandFloors::height_m(const Eigen::Vector2f& point) const {
 
 std::vector<std::optional<StandPosture>> stand_postures(const world::TraceHeader& header) {
   std::vector<std::optional<StandPosture>> postures;
-  for (const std::string& name : header.state_names) {
-    std::optional<StandPosture>& posture = postures.emplace_back();
-    for (std::size_t i = 0; i < skinning::kStandPostureNames.size(); ++i) {
-      if (name == skinning::kStandPostureNames[i]) posture = static_cast<StandPosture>(i);
-    }
+  postures.resize(header.state_names.size());
+  const std::optional<std::size_t> first = header.first_stand_state();
+  if (!first) return postures;
+  for (const StandPosture posture :
+       {StandPosture::sitting, StandPosture::standing, StandPosture::cheering}) {
+    postures[*first + static_cast<std::size_t>(posture)] = posture;
   }
   return postures;
 }

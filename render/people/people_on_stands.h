@@ -25,7 +25,7 @@ class StandFloors {
   std::vector<Eigen::AlignedBox2d> boxes_;  ///< around each stand
 };
 
-/// The posture that a state of a trace stands for, by its name; nothing if people in it walk.
+/// The posture that each state of a trace stands for; nothing if people in it walk.
 std::vector<std::optional<skinning::StandPosture>> stand_postures(const world::TraceHeader& header);
 
 /// The postures of a trace's people.

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
@@ -17,7 +16,6 @@ namespace {
 
 constexpr float kSpectatorRadiusM = 0.24F;
 constexpr float kStairsMps = 0.7F;
-constexpr std::array kPostureNames = {"sitting", "standing", "cheering", "leaving"};
 
 template <typename T, typename U>
 std::vector<T> extended(std::span<const T> first, std::size_t more, const U& value) {
@@ -47,9 +45,10 @@ class CrowdWithSpectators : public CrowdSource {
   world::TraceHeader header(std::uint64_t seed) const override {
     world::TraceHeader header = crowd_->header(seed);
     if (!header.state_lying.empty()) {
-      header.state_lying.resize(header.state_names.size() + kPostureNames.size(), 0);
+      header.state_lying.resize(header.state_names.size() + world::kStandStates.size(), 0);
     }
-    header.state_names.insert(header.state_names.end(), kPostureNames.begin(), kPostureNames.end());
+    header.state_names.insert(header.state_names.end(), world::kStandStates.begin(),
+                              world::kStandStates.end());
     header.role.resize(count(), world::AgentRole::spectator);
     header.radius_m.resize(count(), kSpectatorRadiusM);
     header.pref_speed_mps.resize(count(), kStairsMps);
@@ -181,10 +180,10 @@ std::unique_ptr<CrowdSource> with_spectators(std::unique_ptr<CrowdSource> crowd,
   if (people.stay.empty() && people.leave.empty()) return crowd;
   constexpr std::size_t kMaxStates = std::numeric_limits<std::uint8_t>::max();
   if (const std::size_t states = crowd->header(seed).state_names.size();
-      states + kPostureNames.size() > kMaxStates) {
-    problems.push_back(
-        {scenario.id, "/crowd/behavior", fmt::format("{} states", states),
-         fmt::format("at most {} where there are spectators", kMaxStates - kPostureNames.size())});
+      states + world::kStandStates.size() > kMaxStates) {
+    problems.push_back({scenario.id, "/crowd/behavior", fmt::format("{} states", states),
+                        fmt::format("at most {} where there are spectators",
+                                    kMaxStates - world::kStandStates.size())});
     return crowd;
   }
   if (!has_leavers(*crowd, people.leave.size())) {

@@ -1,10 +1,8 @@
 // Poses of people on a stand from what they do now and did before, without a plan.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
-#include <string_view>
 
 #include "skinning/animate/action.h"
 #include "skinning/animate/motion.h"
@@ -14,8 +12,6 @@ namespace throng::skinning {
 
 /// The posture of somebody on a stand.
 enum class StandPosture : std::uint8_t { sitting, standing, cheering };
-inline constexpr std::array<std::string_view, 3> kStandPostureNames = {"sitting", "standing",
-                                                                       "cheering"};
 
 /// A time, seen from the changes of posture around it.
 struct PostureTime {
