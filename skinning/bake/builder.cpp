@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 22;
+constexpr int kBuilderVersion = 23;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -208,10 +208,8 @@ class Bakery {
         const std::size_t carried = item ? item->indices.size() / 3 : 0;
         const std::size_t triangles = kDetailLevels[level].triangles - carried;
         asset.levels.push_back(
-            level < kDrawnLevels
-                ? hull.level(triangles, image, extent, bake_slack_m(level, dressed.stature_m),
-                             level > 1 ? kDetailLevels[level - 1].triangles - carried : triangles)
-                : hull.level(triangles, image));
+            hull.level(triangles, image, extent, bake_slack_m(level, dressed.stature_m),
+                       level > 1 ? kDetailLevels[level - 1].triangles - carried : triangles));
       }
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
     }
