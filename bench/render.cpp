@@ -64,8 +64,8 @@ skinning::Population people_to_draw() {
 world::Stand large_stand() {
   world::Stand stand;
   stand.id = "stand";
-  stand.from = {100, 0};
-  stand.to = {-100, 0};
+  stand.from = {-100, 0};
+  stand.to = {100, 0};
   stand.rows = 64;
   stand.front_height_m = 1.2;
   return stand;
