@@ -27,7 +27,8 @@ enum class Facade : std::uint8_t {
   warehouse = 13,  ///< brick with large windows of many panes
   blank = 15,      ///< plaster without windows or anything on it
   railing = 16,    ///< posts, a handrail and bars
-  fence = 17       ///< posts and panels of wire
+  fence = 17,      ///< posts and panels of wire
+  stand = 18       ///< the block of a stand (world/stand.h), for people and drones; not in files
 };
 
 /// Shape of a roof. by_id: a seed chooses among those that suit the building.

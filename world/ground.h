@@ -20,7 +20,7 @@ struct GroundArea {
 /// lie along the strip's direction of travel (from -> to crosses the road); a pitch between the
 /// middles of its goal lines, or a track of a railway.
 struct Marking {
-  std::string kind;                                ///< "line", "dashes", "crossing", "pitch", "track"
+  std::string kind;  ///< "line", "dashes", "crossing", "pitch", "track"
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m
   Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
   double width_m = 0.12;

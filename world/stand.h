@@ -28,10 +28,10 @@ struct Stand {
   double front_height_m = 1;  ///< of the first row's floor
   double row_depth_m = 0.85;
   double row_rise_m = 0.38;
-  bool roof = false;           ///< cantilevered over all rows
-  int vomitories = 0;          ///< openings through which people come from below, evenly spaced
-  std::vector<Paint> colors;   ///< of the seats, the first of most; empty: blue with white
-  std::string text;            ///< written with seats of the last color
+  bool roof = false;          ///< cantilevered over all rows
+  int vomitories = 0;         ///< openings through which people come from below, evenly spaced
+  std::vector<Paint> colors;  ///< of the seats, the first of most; empty: blue with white
+  std::string text;           ///< written with seats of the last color
   Spectators spectators;
 };
 

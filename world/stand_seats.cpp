@@ -90,6 +90,13 @@ Vector2d frame_point(const Stand& stand, const Vector2d& point) {
   return {offset.dot(along_axis(stand)), offset.dot(back_axis(stand))};
 }
 
+std::array<Vector2d, 4> stand_outline(const Stand& stand) {
+  const double along = length_m(stand);
+  const double back = depth_m(stand);
+  return {point_on(stand, 0, back), point_on(stand, along, back), point_on(stand, along, 0),
+          point_on(stand, 0, 0)};
+}
+
 double facing_rad(const Stand& stand) {
   const Vector2d front = -back_axis(stand);
   return std::atan2(front.y(), front.x());

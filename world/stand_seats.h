@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -55,6 +56,8 @@ double depth_m(const Stand& stand);
 Eigen::Vector2d point_on(const Stand& stand, double along_m, double back_m);
 /// The coordinates (along, back) of a point.
 Eigen::Vector2d frame_point(const Stand& stand, const Eigen::Vector2d& point);
+/// Corners of the ground that the rows cover, counter-clockwise (m).
+std::array<Eigen::Vector2d, 4> stand_outline(const Stand& stand);
 /// The heading of somebody who faces the field.
 double facing_rad(const Stand& stand);
 /// How far a spectator who stands is ahead of where the same one sits, in rows deep enough (m).

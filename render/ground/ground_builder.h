@@ -33,6 +33,9 @@ class GroundBuilder {
   /// From now on SceneryVertex::local has coordinates along and to the left of the segment (m).
   void set_axes(const GroundSegment& axes) { axes_ = axes; }
 
+  /// From now on vertices have ground_tone_at() times this.
+  void set_tone(float tone) { tone_ = tone; }
+
   /// A convex polygon, counter-clockwise.
   void add(std::vector<Eigen::Vector2d> polygon, double height_m);
 
@@ -53,6 +56,7 @@ class GroundBuilder {
 
   SceneryMesh& mesh_;
   std::span<const Eigen::Vector2d> outline_;
+  float tone_ = 1;
   GroundSegment axes_ = {Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX()};
 };
 

@@ -12,6 +12,8 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
 #include "render/ground/ground_heights.h"
+#include "render/ground/pitch.h"
+#include "render/ground/water_cuts.h"
 
 namespace throng::render {
 
@@ -25,9 +27,12 @@ constexpr double kKerbStoneM = 0.16;
 /// Lays strips on an area whose outline may have any shape.
 class Mosaic {
  public:
-  Mosaic(const Polygon& corners, GroundBuilder& builder) : builder_(builder) {
+  Mosaic(const GroundCover& cover, GroundBuilder& builder) : builder_(builder) {
+    const Polygon& corners = cover.corners;
     for (const auto& [a, b, c] : geometry::triangulate(corners)) {
-      parts_.push_back({corners[a], corners[b], corners[c]});
+      for (Polygon& part : without({corners[a], corners[b], corners[c]}, cover.holes)) {
+        parts_.push_back(std::move(part));
+      }
     }
   }
 
@@ -144,12 +149,12 @@ void add_gutters(const GroundMap& map, GroundBuilder& builder) {
   }
 }
 
-void add_bands(const Polygon& corners, const world::Scenario& scenario, const GroundMap& map,
-               double height_m, GroundBuilder& builder) {
+void add_bands(const GroundCover& cover, const world::Scenario& scenario, const GroundMap& map,
+               GroundBuilder& builder) {
   constexpr double kWallStripM = 1.2;
   constexpr double kFreeM = 0.7;  // from any wall, at a corner that no other wall goes on from
-  Mosaic mosaic(corners, builder);
-  add_grid(corners, height_m + ground_height::kBandM, mosaic);
+  Mosaic mosaic(cover, builder);
+  add_grid(cover.corners, cover.height_m + ground_height::kBandM, mosaic);
   for (const world::Building& building : scenario.buildings) {
     if (building.height_m < kMinStoryM || building.facade == world::Facade::hedge) continue;
     for (std::size_t i = 0; i < building.footprint.size(); ++i) {
@@ -158,7 +163,7 @@ void add_bands(const Polygon& corners, const world::Scenario& scenario, const Gr
                             building.footprint[i]};
       const Vector2d beyond = wall.to + 0.5 * kWallStripM * (wall.along() + wall.left());
       if (map.wall_m(beyond) > kFreeM) wall.to += kWallStripM * wall.along();
-      mosaic.add(wall, kWallStripM, height_m + ground_height::kWallStripM);
+      mosaic.add(wall, kWallStripM, cover.height_m + ground_height::kWallStripM);
     }
   }
 }
@@ -186,6 +191,11 @@ void add_tactile_paving(const world::Scenario& scenario, const GroundMap& map,
 
 void add_paint(const world::Scenario& scenario, const GroundMap& map, GroundBuilder& builder) {
   for (const world::Marking& marking : scenario.markings) {
+    if (marking.kind == "track") continue;
+    if (marking.kind == "pitch") {
+      add_pitch_lines(marking, builder);
+      continue;
+    }
     add_bars(marking, builder);
     const Vector2d middle = 0.5 * (marking.from + marking.to);
     const bool is_on_road = map.material_at(middle) == "asphalt";

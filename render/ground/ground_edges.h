@@ -18,10 +18,17 @@ void add_kerbs(const world::Scenario& scenario, const GroundMap& map, GroundBuil
 /// Two rows of setts inside of the kerbs of roads.
 void add_gutters(const GroundMap& map, GroundBuilder& builder);
 
+/// The outline of an area, what is cut out of it (convex, counter-clockwise), and its height.
+struct GroundCover {
+  std::vector<Eigen::Vector2d> corners;
+  std::vector<std::vector<Eigen::Vector2d>> holes;
+  double height_m = 0;
+};
+
 /// Bands of setts on an area of pavers: along its outline, across it every 8 to 15 m, and along the
-/// walls on it; `height_m` is the area's.
-void add_bands(const std::vector<Eigen::Vector2d>& corners, const world::Scenario& scenario,
-               const GroundMap& map, double height_m, GroundBuilder& builder);
+/// walls on it.
+void add_bands(const GroundCover& cover, const world::Scenario& scenario, const GroundMap& map,
+               GroundBuilder& builder);
 
 /// Strips that blind people feel, at both ends of crossings.
 void add_tactile_paving(const world::Scenario& scenario, const GroundMap& map,

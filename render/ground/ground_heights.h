@@ -9,6 +9,7 @@ inline constexpr double kNextM = 0.00016;        ///< of an area above the one b
 inline constexpr int kMaxLevels = 5;             ///< further areas are as high as the last
 inline constexpr double kBandM = 0.000054;       ///< of bands of setts above their area
 inline constexpr double kWallStripM = 0.000107;  ///< of setts along walls above their area
+inline constexpr double kMownM = 0.00151;        ///< of mown stripes
 inline constexpr double kGutterM = 0.00157;
 inline constexpr double kKerbM = 0.00163;
 inline constexpr double kTactileM = 0.00169;

@@ -10,6 +10,8 @@
 #include "render/ground/ground_edges.h"
 #include "render/ground/ground_heights.h"
 #include "render/ground/ground_map.h"
+#include "render/ground/pitch.h"
+#include "render/ground/water_cuts.h"
 
 namespace throng::render {
 
@@ -78,7 +80,7 @@ std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t
   constexpr double kMaxWidthM = 25;  // of a street
   const world::GroundArea& street = scenario.areas.at(area);
   std::vector<Polygon> parts;
-  if (street.material == "grass") return parts;
+  if (street.material == "grass" || street.material == "water") return parts;
   for (std::size_t i = 0; i < street.corners.size(); ++i) {
     const Vector2d& from = street.corners[i];
     const Vector2d& to = street.corners[(i + 1) % street.corners.size()];
@@ -111,33 +113,37 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario, Scen
     add();
     if (builder.indices() > first) layers.push_back({material, {first, builder.indices() - first}});
   };
-  const auto bands = [&](const std::string& material, const Polygon& corners, double height_m) {
+  const auto bands = [&](const std::string& material, const GroundCover& cover) {
     if (material != "pavers") return;
-    layer("setts", [&] { add_bands(corners, scenario, map, height_m, builder); });
+    layer("setts", [&] { add_bands(cover, scenario, map, builder); });
   };
   layer("paint", [&] { add_paint(scenario, map, builder); });
   layer("tactile", [&] { add_tactile_paving(scenario, map, builder); });
   layer("kerb", [&] { add_kerbs(scenario, map, builder); });
   layer("gutter", [&] { add_gutters(map, builder); });
+  layer("grass", [&] { add_mown_stripes(scenario, builder); });
   const std::vector<int> levels = area_levels(scenario.areas);
   for (std::size_t i = scenario.areas.size(); i-- > 0;) {
     const world::GroundArea& area = scenario.areas[i];
+    if (area.material == "water") continue;
     const double height_m = ground_height::kAreaM +
                             ground_height::kNextM * std::min(levels[i], ground_height::kMaxLevels);
-    bands(area.material, area.corners, height_m);
+    const std::vector<Polygon> holes = water_parts(scenario, i);
+    bands(area.material, {area.corners, holes, height_m});
     layer(area.material, [&] {
       builder.set_outline(area.corners);
       for (const auto& triangle : geometry::triangulate(area.corners)) {
-        builder.add_in_cells(
-            {area.corners[triangle[0]], area.corners[triangle[1]], area.corners[triangle[2]]},
-            height_m);
+        const Polygon whole = {area.corners[triangle[0]], area.corners[triangle[1]],
+                               area.corners[triangle[2]]};
+        for (const Polygon& part : without(whole, holes)) builder.add_in_cells(part, height_m);
       }
       builder.set_outline({});
       for (const Polygon& part : streets_beyond(scenario, i)) builder.add(part, height_m);
     });
   }
   const auto& [low, high] = scenario.ground;
-  bands(scenario.ground_material, {low, {high.x(), low.y()}, high, {low.x(), high.y()}}, 0);
+  bands(scenario.ground_material,
+        {{low, {high.x(), low.y()}, high, {low.x(), high.y()}}, water_parts(scenario), 0});
   return layers;
 }
 

@@ -88,11 +88,17 @@ std::size_t cut_props(float side_m, std::vector<PlacedProp>& props) {
     PropMesh& mesh = prop.mesh;
     const std::span<const std::uint32_t> all(mesh.indices);
     const std::size_t far_count = std::min(mesh.far_indices, all.size());
-    std::vector<std::uint32_t> cut =
-        refined(all.first(far_count), mesh.vertices, [&](const PropVertex& a, const PropVertex& b) {
-          return a.paint[3] != static_cast<std::uint8_t>(Finish::leaves) &&
-                 (vertex_position(b) - vertex_position(a)).norm() > side_m;
-        });
+    const auto refine = [&](std::span<const std::uint32_t> part) {
+      return refined(part, mesh.vertices, [&](const PropVertex& a, const PropVertex& b) {
+        return a.paint[3] != static_cast<std::uint8_t>(Finish::leaves) &&
+               (vertex_position(b) - vertex_position(a)).norm() > side_m;
+      });
+    };
+    std::vector<std::uint32_t> cut = refine(all.first(mesh.only_far));
+    const std::vector<std::uint32_t> always =
+        refine(all.subspan(mesh.only_far, far_count - mesh.only_far));
+    mesh.only_far = cut.size();
+    cut.insert(cut.end(), always.begin(), always.end());
     // Details are small enough.
     mesh.far_indices = cut.size();
     cut.insert(cut.end(), all.begin() + static_cast<std::ptrdiff_t>(far_count), all.end());

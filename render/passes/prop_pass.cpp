@@ -42,9 +42,10 @@ PropSurface choose_surface(Finish finish) {
   }
 }
 
-/// The triangles of a mesh that share a program: those for any distance, then the details.
+/// The triangles of a mesh that share a program, in the order of PropMesh::indices.
 struct Triangles {
   std::vector<std::uint32_t> indices;
+  std::size_t only_far = 0;
   std::size_t far_count = 0;
 };
 
@@ -57,6 +58,7 @@ std::array<Triangles, kPropSurfaces + 1> sort_triangles(const PropMesh& mesh, st
                                ? sorted.back()
                                : sorted.at(static_cast<std::size_t>(choose_surface(finish)));
     for (std::size_t k = i; k < i + 3; ++k) triangles.indices.push_back(base + mesh.indices[k]);
+    if (i < mesh.only_far) triangles.only_far = triangles.indices.size();
     if (i < mesh.far_indices) triangles.far_count = triangles.indices.size();
   }
   return sorted;
@@ -106,9 +108,10 @@ void PropPass::add(const PlacedProp& prop, std::vector<PropVertex>& vertices,
     return range;
   };
   for (std::size_t i = 0; i < kPropSurfaces; ++i) {
-    item.solid.at(i) = append(sorted.at(i));
-    item.far_solid.at(i) = {item.solid.at(i).first,
-                            static_cast<std::uint32_t>(sorted.at(i).far_count)};
+    const Range all = append(sorted.at(i));
+    const auto only_far = static_cast<std::uint32_t>(sorted.at(i).only_far);
+    item.solid.at(i) = {all.first + only_far, all.count - only_far};
+    item.far_solid.at(i) = {all.first, static_cast<std::uint32_t>(sorted.at(i).far_count)};
   }
   item.leaves = append(sorted.back());
   item.closed = prop.closed;

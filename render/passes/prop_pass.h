@@ -59,8 +59,8 @@ class PropPass {
     Eigen::AlignedBox3d box;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     double radius_m = 0;
-    std::array<Range, kPropSurfaces> solid;      ///< by PropSurface
-    std::array<Range, kPropSurfaces> far_solid;  ///< their first parts, without details
+    std::array<Range, kPropSurfaces> solid;      ///< near, by PropSurface
+    std::array<Range, kPropSurfaces> far_solid;  ///< far away
     Range leaves;
     bool closed = true;        ///< only its outside is visible
     bool casts = true;         ///< throws a shadow

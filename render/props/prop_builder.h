@@ -26,8 +26,10 @@ class PropBuilder {
   PropBuilder(const world::Prop& prop, std::uint32_t id)
       : prop_(prop), id_(id), random_(prop.look, Stream::environment) {}
 
-  /// The mesh, with what is only drawn near at its end.
+  /// The mesh: first what is only drawn far away, at the end what is only drawn near.
   PropMesh take() {
+    mesh_.only_far = far_indices_.size();
+    mesh_.indices.insert(mesh_.indices.begin(), far_indices_.begin(), far_indices_.end());
     mesh_.far_indices = mesh_.indices.size();
     mesh_.indices.insert(mesh_.indices.end(), near_indices_.begin(), near_indices_.end());
     return std::move(mesh_);
@@ -39,6 +41,8 @@ class PropBuilder {
   Eigen::Affine3d placing = Eigen::Affine3d::Identity();
   /// Whether they are details that are only drawn near.
   bool is_near = false;
+  /// Whether they stand for details, and are only drawn far away.
+  bool is_far = false;
 
   void quad(const std::array<Eigen::Vector3d, 4>& corners, const Eigen::Vector3d& paint,
             Finish finish) {
@@ -62,7 +66,9 @@ class PropBuilder {
                                 id_,
                                 {}});
     }
-    std::vector<std::uint32_t>& indices = is_near ? near_indices_ : mesh_.indices;
+    std::vector<std::uint32_t>& indices = is_near  ? near_indices_
+                                          : is_far ? far_indices_
+                                                   : mesh_.indices;
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       if (corners[a] == corners[b] || corners[b] == corners[c] || corners[c] == corners[a]) return;
       // A mirrored surface keeps its outside.
@@ -173,6 +179,7 @@ class PropBuilder {
   Random random_;
   PropMesh mesh_;
   std::vector<std::uint32_t> near_indices_;
+  std::vector<std::uint32_t> far_indices_;
 };
 
 }  // namespace throng::render

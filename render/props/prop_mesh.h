@@ -36,7 +36,9 @@ struct PropVertex {
 struct PropMesh {
   std::vector<PropVertex> vertices;
   std::vector<std::uint32_t> indices;
-  /// The first of `indices` that are drawn at any distance; those after them are details.
+  /// The first of `indices`, which are only drawn far away: details take their place near by.
+  std::size_t only_far = 0;
+  /// The number of `indices` that are drawn far away; those after them are details.
   std::size_t far_indices = std::numeric_limits<std::size_t>::max();
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/props/shape_file.h"
+#include "render/scenery/railings.h"
 
 namespace throng::render {
 
@@ -30,7 +31,7 @@ std::vector<Lamp> wall_lamps(const world::Scenario& scenario) {
   constexpr double kOffWallM = 0.35;
   std::vector<Lamp> lamps;
   for (const world::Building& building : scenario.buildings) {
-    if (building.height_m < kMinStoryM) continue;
+    if (building.height_m < kMinStoryM || has_no_walls(building)) continue;
     const std::vector<Eigen::Vector2d>& corners = building.footprint;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Eigen::Vector2d& from = corners[i];

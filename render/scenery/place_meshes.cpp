@@ -9,14 +9,20 @@
 #include "render/buildings/roof_details.h"
 #include "render/frame/frame.h"
 #include "render/ground/ground_decals.h"
+#include "render/ground/water_cuts.h"
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
 #include "render/scenery/far_land.h"
 #include "render/scenery/hedges.h"
+#include "render/scenery/railings.h"
 #include "render/scenery/rubble.h"
 #include "render/scenery/scenery.h"
 #include "render/scenery/scenery_classes.h"
+#include "render/scenery/stands.h"
 #include "render/scenery/surface_classes.h"
+#include "render/scenery/tracks.h"
+#include "render/scenery/water.h"
+#include "world/stand_seats.h"
 
 namespace throng::render {
 
@@ -35,6 +41,7 @@ void add_building_details(const world::Scenario& scenario, bool semantic,
                           std::vector<PlacedProp>& props) {
   constexpr double kFrontsWithinM = 70;
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
+    if (has_no_walls(scenario.buildings[i])) continue;
     const BuildingModel model = building_model(scenario.buildings[i], i);
     const auto id_of = [&](world::SemanticClass value) {
       return semantic ? id_with_class(kIdBuilding + i, value) : kIdBuilding + i;
@@ -53,37 +60,110 @@ void add_building_details(const world::Scenario& scenario, bool semantic,
   }
 }
 
+/// Numbers what is placed, one after the other.
+class PropIds {
+ public:
+  explicit PropIds(bool semantic) : semantic_(semantic) {}
+
+  /// The present one, with a class.
+  std::uint32_t now(world::SemanticClass value) const {
+    return semantic_ ? id_with_class(id_, value) : id_;
+  }
+  void next() { ++id_; }
+
+ private:
+  bool semantic_;
+  std::uint32_t id_ = kIdProp;
+};
+
+/// Moves a mesh to the surface below it: the water's.
+void sink(double level_m, PropMesh& mesh) {
+  for (PropVertex& vertex : mesh.vertices) vertex.position[2] += static_cast<float>(level_m);
+}
+
+void add_all(std::vector<PropMesh> meshes, const PlacedProp& like, std::vector<PlacedProp>& props) {
+  for (PropMesh& mesh : meshes) {
+    if (mesh.indices.empty()) continue;
+    props.push_back(like);
+    props.back().mesh = std::move(mesh);
+  }
+}
+
+/// Adds stands, tracks, and water with its banks and bridges.
+void add_structures(const world::Scenario& scenario, PropIds& ids, std::vector<PlacedProp>& props) {
+  for (const world::Stand& stand : scenario.stands) {
+    add_all(make_stand(stand, ids.now(world::SemanticClass::stands)),
+            {.mesh = {}, .is_detail = true}, props);
+    ids.next();
+  }
+  for (const world::Marking& marking : scenario.markings) {
+    if (marking.kind != "track") continue;
+    add_all(make_track(marking, ids.now(world::SemanticClass::railway)),
+            {.mesh = {}, .casts = false, .is_detail = true}, props);
+    ids.next();
+  }
+  for (std::size_t i = 0; i < scenario.areas.size(); ++i) {
+    const world::GroundArea& water = scenario.areas[i];
+    if (water.material != "water") continue;
+    add_all({water_surface(water, ids.now(world::SemanticClass::water))},
+            {.mesh = {}, .casts = false}, props);
+    ids.next();
+    add_all(quay_walls(scenario, water, ids.now(world::SemanticClass::bridge)), {}, props);
+    ids.next();
+    for (std::size_t k = i + 1; k < scenario.areas.size(); ++k) {
+      PropMesh bridge =
+          bridge_below(scenario.areas[k], water, ids.now(world::SemanticClass::bridge));
+      if (bridge.indices.empty()) continue;
+      props.push_back({.mesh = std::move(bridge)});
+      ids.next();
+    }
+  }
+}
+
+/// Where no houses stand beyond the ground: on meshes, stands and water.
+std::vector<Eigen::AlignedBox2d> taken_land(const world::Scenario& scenario,
+                                            std::vector<Eigen::AlignedBox2d> taken) {
+  const auto take = [&](const auto& corners) {
+    Eigen::AlignedBox2d& box = taken.emplace_back();
+    for (const Eigen::Vector2d& corner : corners) box.extend(corner);
+  };
+  for (const world::Stand& stand : scenario.stands) take(world::stand_outline(stand));
+  for (const world::GroundArea& area : scenario.areas) {
+    if (area.material == "water") take(area.corners);
+  }
+  return taken;
+}
+
 std::vector<PlacedProp> place_props(const world::Scenario& scenario, bool semantic) {
   std::vector<PlacedProp> props;
   std::vector<Eigen::AlignedBox2d> taken;
-  std::uint32_t id = kIdProp;
-  const auto id_of = [&](world::SemanticClass value) {
-    return semantic ? id_with_class(id, value) : id;
-  };
+  PropIds ids(semantic);
+  const bool has_water = !water_parts(scenario).empty();
   for (const world::Prop& prop : scenario.props) {
-    props.push_back({.mesh = prop_shape(prop, id_of(world::prop_type(prop.kind).semantic_class))});
-    ++id;
+    PropMesh mesh = prop_shape(prop, ids.now(world::prop_type(prop.kind).semantic_class));
+    if (has_water) sink(surface_level_m(scenario, prop.position), mesh);
+    props.push_back({.mesh = std::move(mesh)});
+    ids.next();
   }
   for (const world::PlacedMesh& mesh : scenario.meshes) {
-    props.push_back({.mesh = mesh_from_file(mesh, id_of(mesh.semantic_class)), .closed = false});
+    props.push_back({.mesh = mesh_from_file(mesh, ids.now(mesh.semantic_class)), .closed = false});
     taken.push_back(mesh_outline(props.back().mesh));
-    ++id;
+    ids.next();
   }
+  add_structures(scenario, ids, props);
   for (const world::Disaster& disaster : scenario.disasters) {
-    std::vector<RubblePiece> pieces = make_rubble(disaster, id_of(world::SemanticClass::rubble));
+    std::vector<RubblePiece> pieces = make_rubble(disaster, ids.now(world::SemanticClass::rubble));
     for (RubblePiece& piece : pieces) {
       props.push_back({.mesh = std::move(piece.mesh), .from_s = piece.from_s});
     }
-    if (!pieces.empty()) ++id;
+    if (!pieces.empty()) ids.next();
   }
   add_building_details(scenario, semantic, props);
   // Walls of hedges throw the shadows of their leaves, and nobody sees those of the land beyond.
-  for (PropMesh& mesh : hedge_leaves(scenario, semantic)) {
-    props.push_back({.mesh = std::move(mesh), .casts = false});
-  }
-  for (PropMesh& mesh : far_land(scenario, taken)) {
-    props.push_back({.mesh = std::move(mesh), .casts = false, .is_backdrop = true});
-  }
+  add_all(hedge_leaves(scenario, semantic), {.mesh = {}, .casts = false}, props);
+  add_all(railings(scenario, semantic), {.mesh = {}, .is_detail = true}, props);
+  add_all(far_land(scenario, taken_land(scenario, std::move(taken))),
+          {.mesh = {}, .casts = false, .is_backdrop = true}, props);
   return props;
 }
 

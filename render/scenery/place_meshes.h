@@ -1,5 +1,6 @@
 // All triangles of a place that stand still: scenery, layers of the ground, props, users' meshes,
-// rubble, the leaves of hedges and the land beyond. Independent of GL.
+// stands, tracks, water, bridges, rubble, railings, the leaves of hedges and the land beyond.
+// Independent of GL.
 #pragma once
 
 #include <vector>

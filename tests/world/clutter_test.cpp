@@ -1,4 +1,4 @@
-#include "world/clutter.h"
+#include "world/clutter/clutter.h"
 
 #include <gtest/gtest.h>
 

@@ -76,7 +76,8 @@ const FieldTable<Marking>& marking_fields() {
   static const FieldTable<Marking> fields = [] {
     FieldTable<Marking> table;
     table
-        .add("kind", "", "", fields::one_of_words(std::array{"line", "dashes", "crossing", "pitch", "track"}),
+        .add("kind", "", "",
+             fields::one_of_words(std::array{"line", "dashes", "crossing", "pitch", "track"}),
              at(&Marking::kind),
              "Kind of marking. The bars of a crossing lie side by side along it; a pitch for "
              "football has its goal lines at both ends; a track has rails, sleepers and ballast.")

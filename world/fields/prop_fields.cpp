@@ -15,7 +15,7 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/rectangle.h"
 #include "base/geometry/triangulate.h"
-#include "world/clutter.h"
+#include "world/clutter/clutter.h"
 #include "world/fields/document_values.h"
 #include "world/scenario.h"
 

@@ -91,8 +91,7 @@ void add_choice(FieldTable<Object>& table, const char* name, const Words& words,
 template <typename Object, typename Access>
 void add_paint(FieldTable<Object>& table, Access access, std::string help) {
   table.add(
-      "color", "", "",
-      paints(),
+      "color", "", "", paints(),
       [access](const Object& object) {
         return access(object) ? json(hex_from_paint(*access(object))) : json();
       },

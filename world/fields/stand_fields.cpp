@@ -26,6 +26,19 @@ void set_colors(Stand& stand, const json& list, const FieldLocation& /*place*/) 
   for (const json& color : list) stand.colors.push_back(paint_from_hex(color));
 }
 
+/// The block around which people walk and drones fly.
+Building stand_block(const Stand& stand) {
+  constexpr double kParapetM = 1.1;
+  constexpr double kRoofM = 7;
+  const auto outline = stand_outline(stand);
+  Building block;
+  block.id = stand.id;
+  block.footprint = {outline.begin(), outline.end()};
+  block.height_m = row_height_m(stand, stand.rows - 1) + (stand.roof ? kRoofM : kParapetM);
+  block.facade = Facade::stand;
+  return block;
+}
+
 const FieldTable<Spectators>& spectator_fields() {
   static const FieldTable<Spectators> fields = [] {
     FieldTable<Spectators> table;

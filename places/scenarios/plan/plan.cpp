@@ -10,6 +10,7 @@
 
 #include "places/scenarios/check/survey.h"
 #include "places/scenarios/plan/plan_drawing.h"
+#include "world/stand_seats.h"
 
 namespace throng::scenarios {
 
@@ -21,11 +22,8 @@ namespace {
 
 Color ground_color(const std::string& material) {
   static const std::map<std::string, std::array<std::uint8_t, 3>> kMaterials = {
-      {"pavers", {236, 232, 226}},
-      {"asphalt", {214, 214, 216}},
-      {"grass", {206, 224, 190}},
-      {"concrete", {228, 228, 226}},
-      {"dirt", {224, 210, 188}}};
+      {"pavers", {236, 232, 226}},   {"asphalt", {214, 214, 216}}, {"grass", {206, 224, 190}},
+      {"concrete", {228, 228, 226}}, {"dirt", {224, 210, 188}},    {"water", {176, 206, 230}}};
   const auto found = kMaterials.find(material);
   return {found != kMaterials.end() ? found->second : std::array<std::uint8_t, 3>{240, 240, 240}};
 }
@@ -39,18 +37,29 @@ void draw_ground(const Scenario& scenario, Sheet& sheet) {
     sheet.polygon(area.corners, ground_color(area.material), drawing::kTransparent);
   }
   constexpr Color kPaint{{255, 255, 255}};
+  constexpr Color kBallast{{190, 184, 176}};
+  constexpr double kBallastM = 4;
   for (const world::Marking& marking : scenario.markings) {
     const Vector2d along = (marking.to - marking.from).normalized();
-    const Vector2d side = 0.5 * marking.width_m * Vector2d(-along.y(), along.x());
-    sheet.polygon(std::array<Vector2d, 4>{marking.from - side, marking.to - side, marking.to + side,
-                                          marking.from + side},
-                  kPaint, drawing::kTransparent);
+    const bool is_track = marking.kind == "track";
+    const Vector2d side =
+        0.5 * (is_track ? kBallastM : marking.width_m) * Vector2d(-along.y(), along.x());
+    const std::array<Vector2d, 4> strip = {marking.from - side, marking.to - side,
+                                           marking.to + side, marking.from + side};
+    if (marking.kind == "pitch") {
+      sheet.polygon(strip, ground_color("grass"), kPaint);
+    } else {
+      sheet.polygon(strip, is_track ? kBallast : kPaint, drawing::kTransparent);
+    }
   }
   constexpr Color kEdge{{120, 120, 120}, 0.5};
   sheet.polygon(scenario.inside.corners(), drawing::kTransparent, kEdge);
 }
 
 void draw_props(const Scenario& scenario, Sheet& sheet) {
+  for (const world::Stand& stand : scenario.stands) {
+    sheet.polygon(world::stand_outline(stand), colors::kBuilding, colors::kInk);
+  }
   for (const world::Building& building : scenario.buildings) {
     sheet.polygon(building.footprint, colors::kBuilding, colors::kInk);
   }

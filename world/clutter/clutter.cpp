@@ -1,4 +1,4 @@
-#include "world/clutter.h"
+#include "world/clutter/clutter.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "base/compute/random.h"
 #include "base/geometry/polygon.h"
 #include "base/geometry/rectangle.h"
-#include "world/free_ground.h"
+#include "world/clutter/free_ground.h"
 #include "world/scenario.h"
 
 namespace throng::world {
@@ -116,7 +116,10 @@ class Strewer {
   void strew() {
     for (const Building& building : scenario_.buildings) {
       constexpr double kMinHouseM = 2.8;
-      if (building.height_m < kMinHouseM || building.facade == Facade::hedge) continue;
+      if (building.height_m < kMinHouseM || building.facade == Facade::hedge ||
+          building.facade == Facade::fence || building.facade == Facade::railing) {
+        continue;
+      }
       for (std::size_t i = 0; i < building.footprint.size(); ++i) {
         along_wall(building.footprint[i], building.footprint[(i + 1) % building.footprint.size()],
                    building.height_m);

@@ -1,4 +1,4 @@
-#include "world/free_ground.h"
+#include "world/clutter/free_ground.h"
 
 #include <algorithm>
 #include <array>
