@@ -19,7 +19,7 @@ bool implies_lying(std::string_view state_name) {
                      [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
 
-std::optional<std::size_t> TraceHeader::first_stand_state() const {
+std::optional<std::size_t> find_stand_states(const std::vector<std::string>& state_names) {
   if (state_names.size() < kStandStates.size()) return std::nullopt;
   const std::size_t first = state_names.size() - kStandStates.size();
   const auto names = state_names.begin() + static_cast<std::ptrdiff_t>(first);

@@ -50,6 +50,9 @@ bool implies_lying(std::string_view state_name);
 inline constexpr std::array<std::string_view, 4> kStandStates = {"sitting", "standing", "cheering",
                                                                  "leaving"};
 
+/// Index of the first of kStandStates among names that end with them; nothing for others.
+std::optional<std::size_t> find_stand_states(const std::vector<std::string>& state_names);
+
 /// Pedestrian model and settings that determine how the people of a run walk; the words are those
 /// of `crowd` in jobs (docs/job.md).
 struct CrowdOrigin {
@@ -92,7 +95,7 @@ struct TraceHeader {
   /// Returns per state whether people in it lie on the ground.
   std::vector<bool> lying_states() const;
   /// Index of the first of kStandStates; nothing for runs without spectators.
-  std::optional<std::size_t> first_stand_state() const;
+  std::optional<std::size_t> first_stand_state() const { return find_stand_states(state_names); }
 };
 
 /// The state of all agents at one crowd step; arrays have one entry per agent.
