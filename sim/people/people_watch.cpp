@@ -61,7 +61,7 @@ void PeopleWatch::look(const world::CrowdStep& step) {
 void PeopleWatch::look_at(Person& person, const world::CrowdStep& step) {
   const bool is_present = (step.flags[person.agent] & world::kPresent) != 0;
   if (!is_present && !person.arrived) return;
-  // Whoever is still on a stand has not come yet.
+  // People on a stand have not come yet.
   if (is_present && !step.state.empty() && step.state[person.agent] >= stand_states_) return;
   const Eigen::Vector2f& place = step.position[person.agent];
   const bool is_inside = is_present && scenario_.inside.contains(place.cast<double>());

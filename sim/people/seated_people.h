@@ -1,4 +1,4 @@
-// The spectators of a scenario's stands: their seats, and the ways by which they leave.
+// The spectators of a scenario's stands: their seats, and their paths when they leave.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ struct Spectator {
   std::optional<world::WayDown> way;                         ///< of those who leave
 };
 
-/// Where a spectator is and what the person does.
+/// Place and posture of a spectator.
 struct SpectatorNow {
   Eigen::Vector2f position = Eigen::Vector2f::Zero();  ///< m
   float yaw_rad = 0;

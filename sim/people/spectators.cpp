@@ -110,7 +110,7 @@ class CrowdWithSpectators : public CrowdSource {
 
  private:
   std::size_t count() const { return agents_ - leavers_ + people_.size(); }
-  /// Those who leave are the crowd's last agents, and the others follow.
+  /// People who leave are the crowd's last agents, and the others follow.
   std::size_t agent_of(std::size_t person) const { return agents_ - leavers_ + person; }
 
   void move_people() {

@@ -38,12 +38,12 @@ json blueprint(int count, double leave_at_s = -1) {
   return square;
 }
 
-world::Scenario scenario_of(const json& square) {
+world::Scenario load_square(const json& square) {
   const TemporaryFolder folder;
   return scenarios::load_scenario(folder.write("s.blueprint.json", square.dump()), "s");
 }
 
-world::Trace run_of(const world::Scenario& scenario, double duration_s, std::uint64_t seed = 7) {
+world::Trace simulate_trace(const world::Scenario& scenario, double duration_s, std::uint64_t seed = 7) {
   RunSpec spec;
   spec.seed = seed;
   spec.duration_s = duration_s;
@@ -57,8 +57,8 @@ std::string state_at(const world::Trace& trace, std::size_t step, std::size_t ag
 }
 
 TEST(Spectators, FollowTheCrowdAndSitOnTheirSeats) {
-  const world::Scenario scenario = scenario_of(blueprint(60));
-  const world::Trace trace = run_of(scenario, 3);
+  const world::Scenario scenario = load_square(blueprint(60));
+  const world::Trace trace = simulate_trace(scenario, 3);
   ASSERT_EQ(trace.agents(), 3U + 60);
   const auto& roles = trace.header.role;
   EXPECT_EQ(std::count(roles.begin(), roles.begin() + 3, AgentRole::person), 3);
@@ -70,7 +70,7 @@ TEST(Spectators, FollowTheCrowdAndSitOnTheirSeats) {
     const Vector2d place = trace.position[trace.at(0, 3 + i)].cast<double>();
     const bool sits = state_at(trace, 0, 3 + i) == "sitting";
     sitting += sits ? 1 : 0;
-    // Whoever stands is 0.3 m ahead of the seat, toward the field.
+    // People who stand are 0.3 m ahead of the seat, toward the field.
     const Vector2d expected = seats[taken[i]].position + Vector2d(0, sits ? 0 : 0.3);
     EXPECT_LT((place - expected).norm(), 1e-4) << i;
     EXPECT_NEAR(trace.yaw_rad[trace.at(0, 3 + i)], EIGEN_PI / 2, 0.15);
@@ -81,8 +81,8 @@ TEST(Spectators, FollowTheCrowdAndSitOnTheirSeats) {
 }
 
 TEST(Spectators, GetUpAndCheerTogetherNowAndThen) {
-  const world::Trace trace = run_of(scenario_of(blueprint(200)), 32);
-  std::size_t most_s = 0;
+  const world::Trace trace = simulate_trace(load_square(blueprint(200)), 32);
+  std::size_t peak_step = 0;
   int most = 0;
   double first_s = -1;
   for (std::size_t step = 0; step < trace.steps(); ++step) {
@@ -92,7 +92,7 @@ TEST(Spectators, GetUpAndCheerTogetherNowAndThen) {
     }
     if (up > most) {
       most = up;
-      most_s = step;
+      peak_step = step;
     }
     if (up > 100 && first_s < 0) first_s = trace.time_s[step];
   }
@@ -101,7 +101,7 @@ TEST(Spectators, GetUpAndCheerTogetherNowAndThen) {
   EXPECT_NEAR(most, 0.72 * 200, 30);
   int cheering = 0;
   for (std::size_t agent = 3; agent < trace.agents(); ++agent) {
-    cheering += state_at(trace, most_s, agent) == "cheering" ? 1 : 0;
+    cheering += state_at(trace, peak_step, agent) == "cheering" ? 1 : 0;
   }
   EXPECT_NEAR(cheering, 0.49 * 200, 30);
   // They move with the posture, and no faster than people get up.
@@ -116,13 +116,13 @@ TEST(Spectators, GetUpAndCheerTogetherNowAndThen) {
 }
 
 TEST(Spectators, FollowTheSeedAndChangeNobodyElse) {
-  const world::Scenario with = scenario_of(blueprint(60));
-  const world::Trace trace = run_of(with, 20);
-  EXPECT_EQ(run_of(with, 20).state, trace.state);
-  EXPECT_NE(run_of(with, 20, 8).state, trace.state);
+  const world::Scenario with = load_square(blueprint(60));
+  const world::Trace trace = simulate_trace(with, 20);
+  EXPECT_EQ(simulate_trace(with, 20).state, trace.state);
+  EXPECT_NE(simulate_trace(with, 20, 8).state, trace.state);
   json square = blueprint(60);
   square["stands"][0].erase("spectators");
-  const world::Trace without = run_of(scenario_of(square), 20);
+  const world::Trace without = simulate_trace(load_square(square), 20);
   ASSERT_EQ(without.agents(), 3U);
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     for (std::size_t agent = 0; agent < 3; ++agent) {
@@ -133,7 +133,7 @@ TEST(Spectators, FollowTheSeedAndChangeNobodyElse) {
 }
 
 TEST(Departures, ComeToTheFeetOneAfterTheOther) {
-  const world::Stand stand = scenario_of(blueprint(100, 5)).stands[0];
+  const world::Stand stand = load_square(blueprint(100, 5)).stands[0];
   const std::vector<world::Departure> all = world::departures(stand);
   ASSERT_EQ(all.size(), 100U);
   const std::vector<world::Seat> seats = world::seats(stand);
@@ -162,8 +162,8 @@ TEST(Departures, ComeToTheFeetOneAfterTheOther) {
 }
 
 TEST(Spectators, LeaveAsTheSamePeople) {
-  const world::Scenario scenario = scenario_of(blueprint(30, 2));
-  const world::Trace trace = run_of(scenario, 60);
+  const world::Scenario scenario = load_square(blueprint(30, 2));
+  const world::Trace trace = simulate_trace(scenario, 60);
   ASSERT_EQ(trace.agents(), 33U);
   const std::vector<world::Departure> all = world::departures(scenario.stands[0]);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -199,7 +199,7 @@ TEST(Spectators, NeedFreeGroundToLeave) {
                                  {"footprint", {{-11, -7.8}, {11, -7.8}, {11, -6}, {-11, -6}}},
                                  {"height_m", 3}});
   try {
-    scenario_of(square);
+    load_square(square);
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems().front().where, "/stands/0");

@@ -146,7 +146,7 @@ json scenario_with(const json& stands) {
           {"stands", stands}};
 }
 
-std::vector<Problem> problems_of(const json& stands) {
+std::vector<Problem> list_problems(const json& stands) {
   const TemporaryFolder folder;
   try {
     load_scenario(folder.write("ground.json", scenario_with(stands).dump()), "ground");
@@ -165,8 +165,8 @@ json stand_json(const char* id, int rows, int count) {
 }
 
 TEST(StandFields, SpectatorsNeedSeats) {
-  EXPECT_TRUE(problems_of({stand_json("a", 12, 1056)}).empty());
-  const std::vector<Problem> problems = problems_of({stand_json("a", 12, 1057)});
+  EXPECT_TRUE(list_problems({stand_json("a", 12, 1056)}).empty());
+  const std::vector<Problem> problems = list_problems({stand_json("a", 12, 1057)});
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/stands/0/spectators/count");
   EXPECT_EQ(problems[0].found, "1057");
@@ -176,7 +176,7 @@ TEST(StandFields, SpectatorsNeedSeats) {
 TEST(StandFields, AllStandsTogetherHaveAtMost20000Spectators) {
   json list = json::array();
   for (const char* id : {"a", "b", "c"}) list.push_back(stand_json(id, 80, 7000));
-  const std::vector<Problem> problems = problems_of(list);
+  const std::vector<Problem> problems = list_problems(list);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/stands/2/spectators/count");
 }
@@ -184,7 +184,7 @@ TEST(StandFields, AllStandsTogetherHaveAtMost20000Spectators) {
 TEST(StandFields, VomitoriesNeedAislesBetweenBlocks) {
   json stand = stand_json("a", 12, 0);
   stand["vomitories"] = 4;
-  const std::vector<Problem> problems = problems_of({stand});
+  const std::vector<Problem> problems = list_problems({stand});
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/stands/0/vomitories");
 }

@@ -131,6 +131,7 @@ void check_stands(Scenario& scenario, const json& list, const FieldLocation& pla
           .reject(std::to_string(stand.vomitories),
                   fmt::format("at most {}, its aisles between blocks of seats", inner));
     }
+    scenario.buildings.push_back(stand_block(stand));
   }
   check_ids(scenario.stands, place);
 }
