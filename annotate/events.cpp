@@ -63,8 +63,7 @@ class EventList {
       if (person.left_by) record["exit"] = scenario_.exits.at(*person.left_by).id;
     }
     for (std::size_t agent = 0; agent < trace_.agents(); ++agent) {
-      const world::AgentRole role = trace_.header.role[agent];
-      if (role != world::AgentRole::person && role != world::AgentRole::attacker) continue;
+      if (!world::is_visible_person(trace_.header.role[agent])) continue;
       add_presence(agent);
       for (const Switch& flag : kSwitches) add_switches(flag, agent);
     }

@@ -5,7 +5,8 @@
 // drawn and read back.
 // The place is a bare square, or the middle of a shipped scenario.
 //   bench_render [--stages] [--seconds S] [--images FOLDER] [--quality WORD] [--people COUNT]
-//                [--device WORD] [--processes COUNT] [--draw-only] [--scenario ID]
+//                [--device WORD] [--processes COUNT] [--draw-only] [--scenario ID] [--stand]
+// With --stand, people are spectators of a stand with seats for 20 000, all of which a drone sees.
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -33,7 +34,9 @@
 #include "places/scenarios/blueprint/load_scenario.h"
 #include "render/allocator.h"
 #include "render/renderer.h"
+#include "skinning/animate/spectator_pose.h"
 #include "tests/render/synthetic_people.h"
+#include "world/stand_seats.h"
 
 namespace throng {
 namespace {
@@ -48,12 +51,33 @@ struct Settings {
   unsigned processes = std::max(1U, std::thread::hardware_concurrency());
   bool draw_only = false;
   std::string scenario;  ///< id of a shipped one, or ""
+  bool stand = false;    ///< people sit on a stand
 };
 
 skinning::Population people_to_draw() {
   const std::filesystem::path folder = skinning::population_folder();
   return std::filesystem::exists(folder) ? skinning::load_population(folder)
                                          : render::synthetic_people(8);
+}
+
+/// The stand that the drone at (0, 110, 40) sees.
+world::Stand large_stand() {
+  world::Stand stand;
+  stand.id = "stand";
+  stand.from = {-100, 0};
+  stand.to = {100, 0};
+  stand.rows = 64;
+  stand.front_height_m = 1.2;
+  return stand;
+}
+
+world::Scenario place_of_stand() {
+  world::Scenario scenario;
+  scenario.id = "bench";
+  scenario.ground = {{-130, -80}, {130, 130}};
+  scenario.ground_material = "grass";
+  scenario.stands = {large_stand()};
+  return scenario;
 }
 
 world::Scenario place(const std::string& id) {
@@ -69,11 +93,41 @@ world::Scenario place(const std::string& id) {
   return scenario;
 }
 
-/// Sees the ground from 10 m to 90 m in front of it; its middle is 30 m ahead.
+/// Sees the ground from 10 m to 90 m in front of it; its middle is 30 m ahead. Or the stand.
 camera::Camera drone(const world::Scenario& scenario) {
+  if (!scenario.stands.empty()) {
+    return {camera::intrinsics_from_hfov(1920, 1080, 84 * kDegree),
+            camera::pose_looking({0, 110, 40}, -90 * kDegree, -12 * kDegree)};
+  }
   const Eigen::Vector2d middle = scenario.inside.bounds.center();
   return {camera::intrinsics_from_hfov(1920, 1080, 70 * kDegree),
           camera::pose_looking({middle.x(), middle.y() - 30, 30}, 90 * kDegree, -45 * kDegree)};
+}
+
+/// Spectators who sit, stand and cheer.
+render::Scene spectators(const skinning::Population& people, world::Stand stand,
+                         std::uint32_t count) {
+  stand.spectators = {static_cast<int>(count), 1};
+  const std::vector<world::Seat> seats = world::seats(stand);
+  const skinning::SpectatorPoses poses(people);
+  render::Scene scene;
+  for (const std::size_t i : world::taken_seats(stand, seats)) {
+    render::PersonInstance person;
+    person.agent = static_cast<std::uint32_t>(scene.people.size());
+    person.position << seats[i].position.cast<float>(), static_cast<float>(seats[i].height_m);
+    person.appearance = skinning::sample_appearance(people, 1, person.agent);
+    person.yaw_rad = static_cast<float>(world::facing_rad(stand));
+    skinning::PostureTime posture;
+    posture.now = posture.before = person.agent % 3 == 0   ? skinning::StandPosture::cheering
+                                   : person.agent % 3 == 1 ? skinning::StandPosture::standing
+                                                           : skinning::StandPosture::sitting;
+    posture.since_s = 2;
+    const double phase = person.appearance.phase_offset;
+    person.pose = poses.at(posture, phase, 2 + phase);
+    person.actions = skinning::SpectatorPoses::actions(posture);
+    scene.people.push_back(person);
+  }
+  return scene;
 }
 
 /// Walkers spread over what the drone sees.
@@ -126,10 +180,11 @@ class Worker {
       : clock_(clock),
         draw_only_(settings.draw_only),
         people_(people_to_draw()),
-        scenario_(place(settings.scenario)),
+        scenario_(settings.stand ? place_of_stand() : place(settings.scenario)),
         folder_(std::filesystem::path("/dev/shm") / fmt::format("throng_bench_{}", ::getpid())),
         renderer_(scenario_, people_, {}, {settings.device}, {.quality = quality, .clock = clock}),
-        scene_(crowd(people_, scenario_, count)),
+        scene_(settings.stand ? spectators(people_, scenario_.stands.front(), count)
+                              : crowd(people_, scenario_, count)),
         coco_(folder_ / "coco") {}
   ~Worker() { std::filesystem::remove_all(folder_); }
   Worker(const Worker&) = delete;
@@ -260,6 +315,7 @@ int main(int count, char** arguments) {
     if (word == "--scenario") settings.scenario = value;
     if (word == "--processes")
       settings.processes = static_cast<unsigned>(std::max(1, std::atoi(value)));
+    if (word == "--stand") settings.stand = true;
     if (word == "--draw-only") settings.draw_only = true;
     if (word == "--people") settings.people = {static_cast<std::uint32_t>(std::atoi(value))};
   }

@@ -79,28 +79,30 @@ class Watcher {
   std::vector<std::vector<Eigen::Vector3d>> drones_;  ///< [step]
 };
 
-bool is_rendered(world::AgentRole role) {
-  return role == world::AgentRole::person || role == world::AgentRole::attacker;
-}
-
 }  // namespace
 
 Animator::Animator(const world::Trace& trace, const skinning::Population& population,
-                   const skinning::Styling& styling)
-    : trace_(&trace), stays_(trace.agents()) {
+                   const skinning::Styling& styling, std::span<const world::Stand> stands)
+    : trace_(&trace),
+      stays_(trace.agents()),
+      on_stands_(trace, stands),
+      poses_on_stands_(population) {
   const Watcher watcher(trace);
   std::vector<Moment> moments;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     appearance_.push_back(skinning::sample_appearance(population, trace.header.seed,
                                                       static_cast<std::uint32_t>(agent), styling));
-    if (!is_rendered(trace.header.role[agent])) continue;
+    if (!world::is_visible_person(trace.header.role[agent])) continue;
     const std::uint64_t key = derive_seed(trace.header.seed, Stream::motion, agent);
     const Curiosity curiosity(Random(key, Stream::motion, 1));
+    const auto is_walker = [&](std::size_t step) {
+      return trace.present(step, agent) && !on_stands_.has_posture(agent, step);
+    };
     for (std::size_t step = 0; step < trace.steps(); ++step) {
-      if (!trace.present(step, agent)) continue;
+      if (!is_walker(step)) continue;
       const std::size_t first = step;
       moments.clear();
-      for (; step < trace.steps() && trace.present(step, agent); ++step) {
+      for (; step < trace.steps() && is_walker(step); ++step) {
         moments.push_back(watcher.moment(agent, step, curiosity));
       }
       stays_[agent].push_back({first, skinning::MotionPlan(population, appearance_.back(),
@@ -118,9 +120,26 @@ const Animator::Stay& Animator::stay_at(std::size_t agent, std::size_t step) con
 }
 
 skinning::Actions Animator::actions_at(std::size_t agent, std::size_t step) const {
-  if (!is_rendered(trace_->header.role[agent])) return {};
+  if (!world::is_visible_person(trace_->header.role[agent])) return {};
+  if (const auto posture = on_stands_.posture_at(agent, step, trace_->time_s[step])) {
+    return skinning::SpectatorPoses::actions(*posture);
+  }
   const Stay& stay = stay_at(agent, step);
   return stay.plan.actions_at(static_cast<double>(step - stay.first_step));
+}
+
+void Animator::pose(std::size_t agent, const world::BetweenSteps& at, double time_s,
+                    PersonInstance& person) const {
+  if (const auto posture = on_stands_.posture_at(agent, at.before, time_s)) {
+    person.pose = poses_on_stands_.at(*posture, person.appearance.phase_offset, time_s);
+    person.actions = skinning::SpectatorPoses::actions(*posture);
+    return;
+  }
+  const Stay& stay = stay_at(agent, at.before);
+  const float share = trace_->present(at.after, agent) ? at.share : 0;
+  const double step = static_cast<double>(at.before - stay.first_step) + static_cast<double>(share);
+  person.pose = stay.plan.at(step);
+  person.actions = stay.plan.actions_at(step);
 }
 
 Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
@@ -132,7 +151,7 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
   const world::BetweenSteps at = trace.steps_around(time_s);
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (!trace.present(at.before, agent)) continue;
-    if (!is_rendered(trace.header.role[agent])) {
+    if (!world::is_visible_person(trace.header.role[agent])) {
       scene.dangers.push_back(trace.position[trace.at(at.before, agent)]);
       continue;
     }
@@ -142,12 +161,8 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
     person.position.head<2>() = trace.position_at(at, agent);
     person.velocity = trace.velocity_at(at, agent);
     person.yaw_rad = trace.yaw_at(at, agent);
-    const Stay& stay = stay_at(agent, at.before);
-    const float share = trace.present(at.after, agent) ? at.share : 0;
-    const double step =
-        static_cast<double>(at.before - stay.first_step) + static_cast<double>(share);
-    person.pose = stay.plan.at(step);
-    person.actions = stay.plan.actions_at(step);
+    person.position.z() = on_stands_.floors().height_m(person.position.head<2>());
+    pose(agent, at, time_s, person);
     scene.people.push_back(person);
   }
   return scene;

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "render/people/people_on_stands.h"
 #include "render/props/scene.h"
 #include "skinning/animate/plan.h"
 #include "skinning/population.h"
@@ -16,8 +19,9 @@ namespace throng::render {
 /// object.
 class Animator {
  public:
+  /// People on `stands`, which are copied, are as high as the floor there.
   Animator(const world::Trace& trace, const skinning::Population& population,
-           const skinning::Styling& styling = {});
+           const skinning::Styling& styling = {}, std::span<const world::Stand> stands = {});
 
   /// The scene at `time_s`, interpolated between steps of the crowd. It contains the people who are
   /// present. `frame_index` becomes Scene::index.
@@ -34,10 +38,14 @@ class Animator {
     skinning::MotionPlan plan;
   };
   const Stay& stay_at(std::size_t agent, std::size_t step) const;
+  void pose(std::size_t agent, const world::BetweenSteps& at, double time_s,
+            PersonInstance& person) const;
 
   const world::Trace* trace_;
   std::vector<skinning::Appearance> appearance_;  ///< per agent
   std::vector<std::vector<Stay>> stays_;          ///< per agent, in order of time
+  PeopleOnStands on_stands_;
+  skinning::SpectatorPoses poses_on_stands_;
 };
 
 }  // namespace throng::render

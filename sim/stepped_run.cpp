@@ -91,7 +91,7 @@ std::vector<world::GoalRef> goals_moved_by(const std::vector<PlannedDrone>& dron
 std::span<const std::uint8_t> people_there(const CrowdSource& crowd,
                                            const std::vector<world::AgentRole>& roles,
                                            std::vector<std::uint8_t>& there) {
-  const auto present = crowd.present();
+  const auto present = crowd.on_ground();
   there.resize(roles.size());
   for (std::size_t i = 0; i < roles.size(); ++i) {
     there[i] = roles[i] == world::AgentRole::person ? present[i] : std::uint8_t{0};
@@ -161,7 +161,7 @@ Checked checked(const world::Scenario& scenario, const RunSpec& spec,
   std::vector<DroneMission> missions = spec.drones;
   if (has_aims(spec)) {
     const auto places =
-        places_of_persons(people.roles, people.crowd->positions(), people.crowd->present());
+        places_of_persons(people.roles, people.crowd->positions(), people.crowd->on_ground());
     aim_drones(scenario, places, spec.seed, missions, problems);
   }
   run.drones = plan_drones(scenario, missions, spec.duration_s, problems);

@@ -17,20 +17,20 @@ struct DetailLevel {
 /// squared height in pixels, and half of the triangles face the camera), so that more triangles
 /// would cost time without visible effect. tests/skinning/levels_test.cpp verifies that the change
 /// of levels is invisible, for all characters from all sides. Characters of the library have more
-/// triangles where they need them to keep their extent (extent_slack_m()). The last level has lost
-/// limbs and only casts shadows.
+/// triangles where they need them to keep their extent (extent_slack_m()). The last level is for
+/// people in the distance, of whom thousands fill a stand, and for shadows.
 inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
     {8000, 160},
     {3000, 110},
     {800, 80},
     {400, 56},
     {250, 40},
-    {170, 0},
+    {170, 14},
     {64, 0},
 }};
 
 /// Levels that are drawn.
-inline constexpr std::size_t kDrawnLevels = kDetailLevels.size() - 1;
+inline constexpr std::size_t kDrawnLevels = kDetailLevels.size();
 
 /// How far (m) a body at a drawn level may end, in any pose and direction, beside the finest ones:
 /// a pixel at the largest height in the image at which the level is drawn, or 1.5 cm if that is

@@ -102,6 +102,11 @@ double facing_rad(const Stand& stand) {
   return std::atan2(front.y(), front.x());
 }
 
+double standing_ahead_m(const Stand& stand) {
+  constexpr double kToEdgeM = 0.2;
+  return std::min(kStandingAheadM, stand.row_depth_m - kSeatToRearM - kToEdgeM);
+}
+
 double row_height_m(const Stand& stand, int row) {
   return stand.front_height_m + row * stand.row_rise_m;
 }

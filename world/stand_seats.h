@@ -60,6 +60,10 @@ Eigen::Vector2d frame_point(const Stand& stand, const Eigen::Vector2d& point);
 std::array<Eigen::Vector2d, 4> stand_outline(const Stand& stand);
 /// The heading of somebody who faces the field.
 double facing_rad(const Stand& stand);
+/// How far a spectator who stands is ahead of where the same one sits, in rows deep enough (m).
+inline constexpr double kStandingAheadM = 0.3;
+/// The same in the rows of a stand.
+double standing_ahead_m(const Stand& stand);
 /// Height of a row's floor (m).
 double row_height_m(const Stand& stand, int row);
 

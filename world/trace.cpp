@@ -19,6 +19,14 @@ bool implies_lying(std::string_view state_name) {
                      [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
 
+std::optional<std::size_t> find_stand_states(const std::vector<std::string>& state_names) {
+  if (state_names.size() < kStandStates.size()) return std::nullopt;
+  const std::size_t first = state_names.size() - kStandStates.size();
+  const auto names = state_names.begin() + static_cast<std::ptrdiff_t>(first);
+  if (!std::equal(kStandStates.begin(), kStandStates.end(), names)) return std::nullopt;
+  return first;
+}
+
 std::vector<bool> TraceHeader::lying_states() const {
   if (!state_lying.empty()) return {state_lying.begin(), state_lying.end()};
   std::vector<bool> lying;

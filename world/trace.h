@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,10 +23,16 @@ inline constexpr double kTimeSlackS = 1e-6;
 
 enum class AgentRole : std::uint8_t {
   person = 0,
-  disaster = 1,  ///< represents a disaster; neither rendered nor counted
-  absent = 2,    ///< part of the scenario but not of this run; neither rendered nor counted
-  attacker = 3,  ///< represents a disaster and is a person: rendered and labeled, but not counted
+  disaster = 1,   ///< represents a disaster; neither rendered nor counted
+  absent = 2,     ///< part of the scenario but not of this run; neither rendered nor counted
+  attacker = 3,   ///< represents a disaster and is a person: rendered and labeled, but not counted
+  spectator = 4,  ///< stays on a stand: rendered and labeled, but not counted
 };
+
+/// Whether agents with this role are people who are rendered and labeled.
+constexpr bool is_visible_person(AgentRole role) {
+  return role == AgentRole::person || role == AgentRole::attacker || role == AgentRole::spectator;
+}
 
 /// Bits of Trace::flags. kPresent: the agent takes part, that is, has arrived and not left yet.
 /// kPanicked: is in panic. kFallen: has fallen and lies on the ground. kFollowing: heads for the
@@ -37,6 +45,13 @@ inline constexpr std::uint8_t kFollowing = 8;
 /// Whether people in a state with this name lie on the ground, for behaviors that do not declare
 /// it: whether the name contains one of the words in docs/trace.md, ignoring case.
 bool implies_lying(std::string_view state_name);
+
+/// States of people on stands (world/stand.h), the last ones of runs with spectators.
+inline constexpr std::array<std::string_view, 4> kStandStates = {"sitting", "standing", "cheering",
+                                                                 "leaving"};
+
+/// Index of the first of kStandStates among names that end with them; nothing for others.
+std::optional<std::size_t> find_stand_states(const std::vector<std::string>& state_names);
 
 /// Pedestrian model and settings that determine how the people of a run walk; the words are those
 /// of `crowd` in jobs (docs/job.md).
@@ -79,6 +94,8 @@ struct TraceHeader {
   std::size_t agent_count() const { return role.size(); }
   /// Returns per state whether people in it lie on the ground.
   std::vector<bool> lying_states() const;
+  /// Index of the first of kStandStates; nothing for runs without spectators.
+  std::optional<std::size_t> first_stand_state() const { return find_stand_states(state_names); }
 };
 
 /// The state of all agents at one crowd step; arrays have one entry per agent.

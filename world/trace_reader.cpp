@@ -118,8 +118,8 @@ class Reader {
     const hdf5::Handle agents = open_group("agents");
     const hsize_t count = hdf5::dataset_shape(agents, "role", 1)[0];
     for (const std::uint8_t role : numbers<std::uint8_t>(agents, "role", {count})) {
-      if (role > static_cast<std::uint8_t>(AgentRole::attacker)) {
-        reject(source_, "agents/role", std::to_string(role), "0, 1 or 2");
+      if (role > static_cast<std::uint8_t>(AgentRole::spectator)) {
+        reject(source_, "agents/role", std::to_string(role), "0 to 4");
       }
       header.role.push_back(static_cast<AgentRole>(role));
     }

@@ -47,7 +47,7 @@ struct TrajectoryReader::File {
     std::vector<std::uint8_t> roles(count);
     hdf5::read_into(agents, "role", {count}, hdf5::element_type<std::uint8_t>(), roles.data());
     for (const std::uint8_t value : roles) {
-      if (value > static_cast<std::uint8_t>(AgentRole::attacker)) throw hdf5::Failure("role");
+      if (value > static_cast<std::uint8_t>(AgentRole::spectator)) throw hdf5::Failure("role");
       role.push_back(static_cast<AgentRole>(value));
     }
     if (steps == 0) throw hdf5::Failure("time_s");

@@ -244,11 +244,13 @@ GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, doub
   std::vector<Vector2d> places;
   std::vector<Eigen::Vector2f> velocities;
   const Vector2d size = grid.cell_m() * Vector2d(grid.columns(), grid.rows());
+  const std::optional<std::size_t> on_stand = trace.header.first_stand_state();
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (trace.header.role[agent] != world::AgentRole::person ||
         !trace.present(around.before, agent)) {
       continue;
     }
+    if (on_stand && trace.state[trace.at(around.before, agent)] >= *on_stand) continue;
     const Vector2d place = trace.position_at(around, agent).cast<double>();
     const Eigen::Array2d offset = (place - grid.origin()).array();
     if ((offset < 0).any() || (offset >= size.array()).any()) continue;

@@ -29,8 +29,7 @@ Trajectories trajectories_at(const world::Trace& trace, std::span<const double> 
   Trajectories found;
   found.frames = times_s.size();
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
-    const world::AgentRole role = trace.header.role[agent];
-    if (role != world::AgentRole::person && role != world::AgentRole::attacker) continue;
+    if (!world::is_visible_person(trace.header.role[agent])) continue;
     found.agents.push_back(static_cast<std::uint32_t>(agent));
   }
   found.values.reserve(times_s.size() * found.agents.size() * kTrajectoryValues);

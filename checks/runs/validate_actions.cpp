@@ -20,8 +20,9 @@ using nlohmann::json;
 namespace {
 
 /// Somebody does one of these at a time.
-constexpr std::array kMotions = {"stand", "walk", "run", "turn", "fall", "lie", "get_up"};
-constexpr std::array kOthers = {"look_around", "use_phone", "look_at_drone", "panic", "carry"};
+constexpr std::array kMotions = {"stand", "walk", "run", "turn", "fall", "lie", "get_up", "sit"};
+constexpr std::array kOthers = {"look_around", "use_phone", "look_at_drone",
+                                "panic",       "cheer",     "carry"};
 
 /// The table has steps of the crowd, and a pose between two of them may be of the next motion.
 constexpr double kActionStepS = 0.25;

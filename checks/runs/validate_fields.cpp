@@ -15,6 +15,7 @@
 #include "formats/dataset/run_events.h"
 #include "formats/dataset/run_trajectories.h"
 #include "formats/files/npy.h"
+#include "world/trace.h"
 
 namespace throng::checks {
 
@@ -278,15 +279,17 @@ std::set<std::int64_t> tracks_of_figures(const formats::DatasetInfo& info, const
   return tracks;
 }
 
-/// Those of them who are there at a frame, seen or not.
+/// Those of them who are on the ground at a frame, seen or not.
 std::map<std::int64_t, Standing> people_at(const formats::RunTrajectories& recorded,
                                            std::size_t frame,
                                            const std::set<std::int64_t>& tracks) {
   std::map<std::int64_t, Standing> people;
+  const std::optional<std::size_t> on_stand = world::find_stand_states(recorded.states);
   for (std::size_t person = 0; frame < recorded.times_s.size() && person < recorded.tracks.size();
        ++person) {
     const std::int64_t track = recorded.tracks[person];
     if (!recorded.present(frame, person) || !tracks.contains(track)) continue;
+    if (on_stand && recorded.at(frame, person)[3] >= static_cast<float>(*on_stand)) continue;
     people[track] = {recorded.place(frame, person), Vector2d::Zero()};
   }
   return people;
@@ -308,7 +311,9 @@ void FieldsCheck::add(const formats::DatasetInfo& /*info*/, const formats::Image
                       Findings& /*findings*/) {
   if (!is_shot_at_once(image)) return;
   auto& people = runs_[image.run][image.frame];
+  constexpr double kOnStandM = 0.05;  // people higher than this are not on the ground
   for (const formats::Person& person : image.people) {
+    if (person.position.z() > kOnStandM) continue;
     people.insert_or_assign(person.track_id, Walker{person.position.head<2>(), person.velocity});
   }
 }

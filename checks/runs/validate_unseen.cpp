@@ -12,6 +12,7 @@
 #include "checks/shares.h"
 #include "formats/dataset/image_camera.h"
 #include "formats/dataset/run_trajectories.h"
+#include "world/trace.h"
 
 namespace throng::checks {
 
@@ -41,7 +42,9 @@ class UnseenRun {
  public:
   UnseenRun(const formats::RunTrajectories& recorded,
             const std::map<std::int64_t, UnseenCheck::Frame>& frames)
-      : recorded_(recorded), frames_(frames) {}
+      : recorded_(recorded),
+        frames_(frames),
+        stand_states_(world::find_stand_states(recorded.states).value_or(recorded.states.size())) {}
 
   /// Somebody without a record whom a camera must see: a text, or "".
   std::string left_out(std::string& record) const {
@@ -52,7 +55,7 @@ class UnseenRun {
         for (std::size_t person = 0; person < recorded_.tracks.size(); ++person) {
           const std::int64_t track = recorded_.tracks[person];
           if (!recorded_.present(index, person) || view.tracks.contains(track) ||
-              !must_reach(view, recorded_.place(index, person))) {
+              is_on_stand(index, person) || !must_reach(view, recorded_.place(index, person))) {
             continue;
           }
           record = fmt::format("image {}", view.image);
@@ -115,6 +118,11 @@ class UnseenRun {
   WrongTally border_states;  ///< of people who are seen in one of two frames
 
  private:
+  /// Whether somebody is on a stand, above the ground by an unknown height.
+  bool is_on_stand(std::size_t frame, std::size_t person) const {
+    return recorded_.at(frame, person)[3] >= static_cast<float>(stand_states_) &&
+           stand_states_ < recorded_.states.size();
+  }
   bool is_seen(std::size_t frame, std::size_t person) const {
     const auto found = frames_.find(static_cast<std::int64_t>(frame));
     return found != frames_.end() && found->second.seen.contains(recorded_.tracks[person]);
@@ -146,6 +154,7 @@ class UnseenRun {
 
   const formats::RunTrajectories& recorded_;
   const std::map<std::int64_t, UnseenCheck::Frame>& frames_;
+  std::size_t stand_states_;                 ///< first of those of people on stands
   std::map<float, WrongTally> seen_motion_;  ///< share of people who stand, by state
   std::map<float, WrongTally> unseen_motion_;
 };

@@ -13,6 +13,7 @@
 #include "live/flight/people_in_motion.h"
 #include "spec/job/environment.h"
 #include "spec/job/plan.h"
+#include "world/fields/trace_scenario.h"
 
 namespace throng::live {
 
@@ -43,21 +44,26 @@ Eigen::Vector3d position_sd_m(const sim::SensorNoise& noise) {
 
 /// As wide as the circle that the simulation has for a person; ahead of the feet of those who have
 /// fallen.
-ros::Box3 person_box(const Eigen::Vector2f& position, float yaw_rad, double radius_m,
+ros::Box3 person_box(const Eigen::Vector3f& position, float yaw_rad, double radius_m,
                      double stature_m, bool has_fallen) {
   ros::Box3 box;
   box.label = "person";
   box.pose.rotation = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ());
-  box.pose.position << position.cast<double>(), 0.0;
+  box.pose.position = position.cast<double>();
   const double width_m = 2 * radius_m;
   if (has_fallen) {
     box.size_m = {stature_m, width_m, width_m};
     box.pose.position += box.pose.rotation * Eigen::Vector3d(0.5 * stature_m, 0, radius_m);
   } else {
     box.size_m = {width_m, width_m, stature_m};
-    box.pose.position.z() = 0.5 * stature_m;
+    box.pose.position.z() += 0.5 * stature_m;
   }
   return box;
+}
+
+std::vector<world::Stand> known_stands(const world::TraceHeader& header) {
+  const auto scenario = world::scenario_in_trace(header, "", world::TraceMeshes::left_out);
+  return scenario ? scenario->stands : std::vector<world::Stand>();
 }
 
 }  // namespace
@@ -100,7 +106,8 @@ FlightTopics::FlightTopics(const jobs::JobSpec& job, const Flight& flight,
       clock_(sink_),
       roles_(flight.header().role),
       radii_m_(flight.header().radius_m),
-      statures_m_(std::move(statures_m)) {
+      statures_m_(std::move(statures_m)),
+      floors_(known_stands(flight.header())) {
   const jobs::JobSpec run_job = jobs::job_of_run(job, 0);
   const std::uint64_t seed = jobs::run_seed(job, 0);
   latitude_deg_ = jobs::environment_of_run(run_job.environment, seed).latitude_deg;
@@ -181,9 +188,10 @@ void FlightTopics::add_people(const world::CrowdStep& people) {
   std::vector<ros::Box3> boxes;
   for (std::size_t i = 0; i < roles_.size(); ++i) {
     const std::uint8_t flags = people.flags[i];
-    if ((flags & world::kPresent) == 0 || !is_rendered(roles_[i])) continue;
-    boxes.push_back(person_box(people.position[i], people.yaw_rad[i], radii_m_[i], statures_m_[i],
-                               (flags & world::kFallen) != 0));
+    if ((flags & world::kPresent) == 0 || !world::is_visible_person(roles_[i])) continue;
+    const Eigen::Vector2f& at = people.position[i];
+    boxes.push_back(person_box({at.x(), at.y(), floors_.height_m(at)}, people.yaw_rad[i],
+                               radii_m_[i], statures_m_[i], (flags & world::kFallen) != 0));
     boxes.back().id = annotate::track_id(0, static_cast<std::uint32_t>(i));
   }
   ros::publish_boxes(sink_, "", people.time_s, boxes);

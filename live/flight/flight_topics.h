@@ -11,6 +11,7 @@
 #include "formats/recording/message_sink.h"
 #include "formats/recording/run_topics.h"
 #include "live/flight/flight.h"
+#include "render/people/people_on_stands.h"
 #include "sim/remote/remote_pilots.h"
 #include "sim/sensors/sensors.h"
 #include "spec/camera/camera_spec.h"
@@ -74,6 +75,7 @@ class FlightTopics {
   std::vector<world::AgentRole> roles_;
   std::vector<float> radii_m_;
   std::vector<double> statures_m_;
+  render::StandFloors floors_;
   double people_after_s_ = -1;  ///< people are published after this time
 };
 

@@ -24,10 +24,6 @@ std::vector<skinning::Appearance> sample_looks(const world::TraceHeader& header,
 
 }  // namespace
 
-bool is_rendered(world::AgentRole role) {
-  return role == world::AgentRole::person || role == world::AgentRole::attacker;
-}
-
 std::vector<double> statures_m(const world::TraceHeader& header,
                                const skinning::Population& population,
                                const skinning::Styling& styling) {
@@ -39,12 +35,30 @@ std::vector<double> statures_m(const world::TraceHeader& header,
 }
 
 PosedPeople::PosedPeople(const world::TraceHeader& header, std::uint64_t seed,
-                         const skinning::Population& population, const skinning::Styling& styling)
+                         const skinning::Population& population, const skinning::Styling& styling,
+                         std::span<const world::Stand> stands)
     : population_(population),
       clips_(population),
       roles_(header.role),
       looks_(sample_looks(header, seed, population, styling)),
-      fell_at_s_(header.agent_count(), -1) {}
+      fell_at_s_(header.agent_count(), -1),
+      postures_(render::stand_postures(header)),
+      on_stands_(header.agent_count()),
+      poses_on_stands_(population),
+      floors_(stands) {}
+
+skinning::PoseBlend PosedPeople::pose_on_stand(std::size_t agent, skinning::StandPosture posture,
+                                               double time_s) {
+  skinning::PostureTime& known = on_stands_[agent];
+  if (posture != known.now) {
+    known.before = known.now;
+    known.now = posture;
+    known.since_s = time_s;
+  }
+  skinning::PostureTime now = known;
+  now.since_s = time_s - known.since_s;
+  return poses_on_stands_.at(now, looks_[agent].phase_offset, time_s);
+}
 
 skinning::PoseBlend PosedPeople::pose_of(std::size_t agent, double meters, double speed_mps,
                                          std::uint8_t flags, double time_s) {
@@ -80,7 +94,7 @@ render::Scene PosedPeople::scene_at(const Moment& moment, double time_s) {
       static_cast<float>(std::clamp(1 - (moment.time_s - time_s) / moment.dt_s, 0.0, 1.0));
   for (std::size_t i = 0; i < roles_.size(); ++i) {
     if ((a.flags[i] & world::kPresent) == 0) continue;
-    if (!is_rendered(roles_[i])) {
+    if (!world::is_visible_person(roles_[i])) {
       scene.dangers.push_back(a.position[i]);
       continue;
     }
@@ -94,7 +108,10 @@ render::Scene PosedPeople::scene_at(const Moment& moment, double time_s) {
     const double meters =
         moment.strides_before[i] +
         static_cast<double>(part) * (moment.strides_now[i] - moment.strides_before[i]);
-    person.pose = pose_of(i, meters, person.velocity.norm(), a.flags[i], time_s);
+    person.position.z() = floors_.height_m(person.position.head<2>());
+    const auto posture = a.state[i] < postures_.size() ? postures_[a.state[i]] : std::nullopt;
+    person.pose = posture ? pose_on_stand(i, *posture, time_s)
+                          : pose_of(i, meters, person.velocity.norm(), a.flags[i], time_s);
     scene.people.push_back(person);
   }
   return scene;

@@ -344,7 +344,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
     @property
     def actions(self) -> list[list[str]]:
         """Names of the actions of each person; empty without "actions" in outputs.annotations. A motion (stand, walk, run, turn, fall,
-        lie or get_up) and others: look_around, use_phone, look_at_drone, panic, carry."""
+        lie, get_up or sit) and others: look_around, use_phone, look_at_drone, panic, cheer, carry."""
         return [self._items(record, "actions", str) for record in self.records]
 
     @property

@@ -124,7 +124,7 @@ class Simulation:
         #: The area that people leave (m): [[x, y] of its south-west corner, of its north-east corner].
         self.area: NDArray[np.float64] = np.array(self._run.area).reshape(2, 2)
         #: Whether each agent is a person, and not a danger (n,).
-        self.is_person: NDArray[np.bool_] = np.isin(self._run.roles, (0, 3))
+        self.is_person: NDArray[np.bool_] = np.isin(self._run.roles, (0, 3, 4))
 
     @property
     def dt_s(self) -> float:

@@ -175,7 +175,7 @@ class Trace:
 
     @cached_property
     def roles(self) -> list[str]:
-        """Of each agent: person, disaster, absent (not in this run) or attacker."""
+        """Of each agent: person, disaster, absent (not in this run), attacker or spectator."""
         return [ROLES[role] if role < len(ROLES) else str(role) for role in self._read("agents/role")]
 
     @cached_property
@@ -228,7 +228,7 @@ class Trace:
         beside these time_s, vx, vy, state."""
         pandas = require("pandas", "to_pandas()")
         keep = self.present.copy()
-        keep[:, [role not in ("person", "attacker") for role in self.roles]] = False
+        keep[:, [role not in ("person", "attacker", "spectator") for role in self.roles]] = False
         agent, step = np.nonzero(keep.T)
         position, velocity = self.positions[step, agent], self.velocities[step, agent]
         return pandas.DataFrame(

@@ -15,6 +15,7 @@ using Eigen::Vector2d;
 
 constexpr double kMinSizePx = 48;  // standing height of people who still get a rim: it costs as
                                    // much as they do, and shows as a few pixels
+constexpr double kOnGroundM = 0.01;
 constexpr double kPersonReachM = 0.5;
 constexpr double kShadowReachM = 14;  // farther lamps cast no visible shadow
 constexpr double kTypicalStatureM = 1.7;
@@ -100,6 +101,7 @@ void ContactPass::draw(std::span<const PersonInstance> people, const camera::Cam
   std::vector<const PersonInstance*> seen;
   for (const PersonInstance& person : people) {
     const Eigen::Vector3d foot = person.position.cast<double>();
+    if (foot.z() > kOnGroundM) continue;  // on a stand
     if ((foot - eye).norm() > max_distance_m || is_outside(planes, foot, kPersonReachM)) continue;
     seen.push_back(&person);
   }

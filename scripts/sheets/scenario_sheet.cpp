@@ -109,7 +109,8 @@ void draw_row(const Run& run, const Environment& environment, const skinning::Po
               int width, int height, std::size_t row, Sheet& sheet) {
   render::Renderer renderer(run.scenario, people, environment, {"software"});
   const bool rains = environment.weather == Weather::rain;
-  const render::Animator animator(run.trace, people, {.umbrellas = rains ? kUmbrellas : 0});
+  const render::Animator animator(run.trace, people, {.umbrellas = rains ? kUmbrellas : 0},
+                                  run.scenario.stands);
   const double time_s = std::min(kShownS, run.trace.time_s.back());
   for (std::size_t column = 0; column < kViews.size(); ++column) {
     const camera::Camera camera = camera_at(run.scenario, kViews.at(column), width, height);

@@ -31,6 +31,8 @@ class CrowdSource {
   virtual std::span<const Eigen::Vector2f> positions() const = 0;   ///< m
   virtual std::span<const Eigen::Vector2f> velocities() const = 0;  ///< m/s
   virtual std::span<const std::uint8_t> present() const = 0;        ///< 1: present now
+  /// 1: present now, and not on a stand.
+  virtual std::span<const std::uint8_t> on_ground() const { return present(); }
   virtual std::span<const crowd::GoalId> goals() const = 0;
   virtual std::span<const crowd::Fall> falls() const = 0;  ///< falls in the last step
   virtual std::vector<Problem> warnings() const = 0;

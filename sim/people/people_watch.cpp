@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace throng::sim {
 
@@ -38,7 +39,8 @@ PeopleWatch::PeopleWatch(const world::Scenario& scenario, const world::TraceHead
       alarm_s_(header.alarm ? header.alarm->at_s : std::nullopt),
       images_from_s_(images_from_s),
       are_recorded_(header.crowd.model == world::kRecordedCrowd),
-      has_aware_states_(header.alarm && !header.alarm->aware_states.empty()) {
+      has_aware_states_(header.alarm && !header.alarm->aware_states.empty()),
+      stand_states_(header.first_stand_state().value_or(std::numeric_limits<std::size_t>::max())) {
   for (const std::string& state : header.state_names) {
     is_aware_.push_back(has_aware_states_ &&
                         std::count(header.alarm->aware_states.begin(),
@@ -59,6 +61,8 @@ void PeopleWatch::look(const world::CrowdStep& step) {
 void PeopleWatch::look_at(Person& person, const world::CrowdStep& step) {
   const bool is_present = (step.flags[person.agent] & world::kPresent) != 0;
   if (!is_present && !person.arrived) return;
+  // People on a stand have not come yet.
+  if (is_present && !step.state.empty() && step.state[person.agent] >= stand_states_) return;
   const Eigen::Vector2f& place = step.position[person.agent];
   const bool is_inside = is_present && scenario_.inside.contains(place.cast<double>());
   if (!person.arrived) {

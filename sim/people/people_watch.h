@@ -61,6 +61,7 @@ class PeopleWatch {
   bool are_recorded_;
   bool has_aware_states_;
   std::vector<bool> is_aware_;  ///< per state
+  std::size_t stand_states_;    ///< the first one of people on stands
   std::vector<Person> people_;
   std::size_t arrived_ = 0;
   std::size_t outside_ = 0;  ///< people who were outside when they arrived

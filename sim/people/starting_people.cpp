@@ -4,6 +4,7 @@
 
 #include "sim/people/load_people.h"
 #include "sim/people/participants.h"
+#include "sim/people/spectators.h"
 
 namespace throng::sim {
 
@@ -46,9 +47,11 @@ StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& s
     starting.crowd = simulated(*std::move(people));
   }
   starting.roles = starting_roles(scenario, spec, starting.crowd->positions().size(), problems);
+  starting.crowd = with_spectators(std::move(starting.crowd), scenario, spec.seed, problems);
   for (std::size_t i = 0; i < starting.roles.size(); ++i) {
     starting.crowd->set_present(i, starting.roles[i] != world::AgentRole::absent);
   }
+  starting.roles.resize(starting.crowd->positions().size(), world::AgentRole::spectator);
   return starting;
 }
 

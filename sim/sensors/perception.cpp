@@ -63,7 +63,7 @@ void CrowdObserver::look(const CrowdSource& crowd, const CrowdRecorder& recorder
   view_.people.clear();
   std::vector<int> out(scenario_.exits.size());
   for (std::size_t i = 0; i < roles_.size(); ++i) {
-    const bool is_there = crowd.present()[i] != 0 && !recorder.escaped()[i];
+    const bool is_there = crowd.on_ground()[i] != 0 && !recorder.escaped()[i];
     if (roles_[i] != world::AgentRole::person || !is_there || recorder.down()[i]) continue;
     PersonSeen person;
     person.position = crowd.positions()[i].cast<double>();

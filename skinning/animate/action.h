@@ -19,13 +19,15 @@ enum class Action : std::uint8_t {
   use_phone,      ///< looks at a phone in the hand
   look_at_drone,  ///< looks up at a drone
   panic,          ///< runs with raised arms
+  sit,
+  cheer,  ///< stands with raised arms, which wave
 };
-inline constexpr std::size_t kActionCount = 11;
+inline constexpr std::size_t kActionCount = 13;
 inline constexpr std::array<std::string_view, kActionCount> kActionNames = {
-    "stand",  "walk",        "run",       "turn",          "fall", "lie",
-    "get_up", "look_around", "use_phone", "look_at_drone", "panic"};
+    "stand",       "walk",      "run",           "turn",  "fall", "lie",  "get_up",
+    "look_around", "use_phone", "look_at_drone", "panic", "sit",  "cheer"};
 
-/// A set of simultaneous actions: one of stand to get_up, and any of the others.
+/// A set of simultaneous actions: one of stand to get_up and sit, and any of the others.
 class Actions {
  public:
   constexpr Actions() = default;

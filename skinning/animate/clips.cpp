@@ -6,6 +6,7 @@
 #include "base/geometry/angle.h"
 #include "skinning/animate/gait.h"
 #include "skinning/animate/motion.h"
+#include "skinning/animate/sitting.h"
 #include "skinning/animate/standing.h"
 
 namespace throng::skinning {
@@ -65,6 +66,14 @@ Figure held(const Walker& walker, const Clip& clip, double share) {
   return look_up(walker, 0, raised, phase);
 }
 
+// Raised, then one wave.
+Figure cheering_figure(const Walker& walker, const Clip& clip, double share) {
+  const double frame = share * (clip.frames - 1);
+  const double raised = std::min(frame / kCheerRaisedFrame, 1.0);
+  const double waved = (frame - kCheerRaisedFrame) / (clip.frames - 1 - kCheerRaisedFrame);
+  return cheer(walker, raised, std::max(waved, 0.0));
+}
+
 Figure standing_figure(const Walker& walker, const Clip& clip, double share) {
   if (clip.name == "idle") return stand(walker, 0, 2 * share - 1);
   if (clip.name == "idle_left") return stand(walker, 1, 2 * share - 1);
@@ -72,6 +81,10 @@ Figure standing_figure(const Walker& walker, const Clip& clip, double share) {
   if (clip.name == "turn_30") return turn_on_the_spot(walker, 30 * kDegree, share);
   if (clip.name == "turn_60") return turn_on_the_spot(walker, 60 * kDegree, share);
   if (clip.name == "turn_90") return turn_on_the_spot(walker, 90 * kDegree, share);
+  if (clip.name == "sit") return sit(walker, false, 2 * share - 1);
+  if (clip.name == "sit_forward") return sit(walker, true, 2 * share - 1);
+  if (clip.name == "rise") return rise(walker, share);
+  if (clip.name == "cheer") return cheering_figure(walker, clip, share);
   return held(walker, clip, share);
 }
 
@@ -105,6 +118,9 @@ std::vector<Clip> standard_clips() {
   for (int i = 0; i < 5; ++i) catalog.add("walk_look_up", kClipFrames, true, 0.46 + 0.12 * i);
   for (int i = 0; i < 14; ++i) catalog.add("run", kClipFrames, true, 0.84 + 0.07 * i);
   for (int i = 0; i < 6; ++i) catalog.add("panic", kClipFrames, true, 0.9 + 0.16 * i);
+  for (const char* name : {"sit", "sit_forward"}) catalog.add(name, 13, false);
+  catalog.add("rise", 9, false);
+  catalog.add("cheer", kCheerRaisedFrame + 13, false);
   return std::move(catalog).clips();
 }
 

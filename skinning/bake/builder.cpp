@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 22;
+constexpr int kBuilderVersion = 23;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -130,6 +130,10 @@ std::map<std::string, int> number_textures(const DressedPerson& dressed) {
 void add_telling_poses(const Clip& clip, const std::vector<Palette>& palettes,
                        std::vector<Palette>& poses) {
   const bool is_fast = clip.name == "run" || clip.name == "panic";
+  // Levels of detail stay those of people who walk.
+  const bool is_on_stand = clip.name == "sit" || clip.name == "sit_forward" ||
+                           clip.name == "rise" || clip.name == "cheer";
+  if (is_on_stand) return;
   // No divisors of the frames of a stride.
   const std::size_t step = clip.name.starts_with("fall") ? 1 : is_fast ? 3 : 7;
   for (std::size_t frame = 0; frame < palettes.size(); ++frame) {
@@ -204,10 +208,8 @@ class Bakery {
         const std::size_t carried = item ? item->indices.size() / 3 : 0;
         const std::size_t triangles = kDetailLevels[level].triangles - carried;
         asset.levels.push_back(
-            level < kDrawnLevels
-                ? hull.level(triangles, image, extent, bake_slack_m(level, dressed.stature_m),
-                             level > 1 ? kDetailLevels[level - 1].triangles - carried : triangles)
-                : hull.level(triangles, image));
+            hull.level(triangles, image, extent, bake_slack_m(level, dressed.stature_m),
+                       level > 1 ? kDetailLevels[level - 1].triangles - carried : triangles));
       }
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
     }

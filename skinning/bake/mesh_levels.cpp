@@ -180,12 +180,9 @@ Eigen::AlignedBox3f bounding_box(const Mesh& mesh) {
 
 /// Whether a part that stood out, such as a leg or a hand, has been simplified away.
 bool has_lost_limbs(const Mesh& simple, const Mesh& mesh, std::size_t level) {
-  constexpr float kMaxShadowShrink = 0.05F;  // of the largest extent
   const Eigen::AlignedBox3f now = bounding_box(simple);
   const Eigen::AlignedBox3f then = bounding_box(mesh);
-  const float max_shrink_m = level < kDrawnLevels
-                                 ? static_cast<float>(extent_slack_m(level, then.sizes().z()))
-                                 : kMaxShadowShrink * then.sizes().maxCoeff();
+  const auto max_shrink_m = static_cast<float>(extent_slack_m(level, then.sizes().z()));
   return (now.min() - then.min()).cwiseAbs().maxCoeff() > max_shrink_m ||
          (now.max() - then.max()).cwiseAbs().maxCoeff() > max_shrink_m;
 }

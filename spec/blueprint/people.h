@@ -60,6 +60,7 @@ struct Source {
   /// Times (s) and numbers of people, instead of per_minute.
   std::vector<std::pair<double, int>> table;
   std::optional<std::size_t> towards;                    ///< index of the exit for which they head
+  std::optional<std::size_t> of_stand = std::nullopt;    ///< index of the stand that they leave
   std::optional<SampledValue> speed_mps = std::nullopt;  ///< free speed; nothing: People::speed_mps
 };
 

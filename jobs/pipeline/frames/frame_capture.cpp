@@ -36,14 +36,15 @@ render::AirframeShape airframe_shape(const sim::DroneMission& mission) {
 
 }  // namespace
 
-FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
+FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed,
+                           const world::Scenario& scenario, const world::Trace& trace,
                            const skinning::Population& population, render::Renderer& renderer,
                            StageClock* clock)
     : job_(&job),
       run_seed_(run_seed),
       trace_(&trace),
       clock_(clock),
-      animator_(trace, population, job.styling),
+      animator_(trace, population, job.styling, scenario.stands),
       lens_(renderer, population),
       looks_ahead_(annotate::holds(job.outputs.annotations, annotate::GroundTruth::flow_occlusion)),
       ahead_(job.drones.size()) {

@@ -31,9 +31,9 @@ struct CapturedFrame {
 class FrameCapture {
  public:
   /// All arguments passed by reference must outlive this object. `clock` may be null.
-  FrameCapture(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
-               const skinning::Population& population, render::Renderer& renderer,
-               StageClock* clock);
+  FrameCapture(const JobSpec& job, std::uint64_t run_seed, const world::Scenario& scenario,
+               const world::Trace& trace, const skinning::Population& population,
+               render::Renderer& renderer, StageClock* clock);
 
   /// Renders a frame of a drone; `drone` is its index in the job. Ask for a drone's frames in
   /// rising order: if the occlusion of optical flow is requested, the next frame is rendered as

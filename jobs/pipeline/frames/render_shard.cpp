@@ -208,7 +208,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   options.light_folder = folder.path() / "work" / "light";
   options.clock = clock ? &*clock : nullptr;
   render::Renderer renderer(scenario, population, environment.light, {}, options);
-  FrameCapture frame_capture(job, seed, trace, population, renderer, options.clock);
+  FrameCapture frame_capture(job, seed, scenario, trace, population, renderer, options.clock);
 
   const Task task{Task::Kind::render, shard.run, shard.index};
   const nlohmann::json drawn = samples_of_run(whole_job, shard.run);

@@ -10,6 +10,7 @@
 #include "places/scenarios/blueprint/blocked.h"
 #include "places/scenarios/blueprint/crowd_behavior.h"
 #include "places/scenarios/blueprint/crowd_scene.h"
+#include "places/scenarios/blueprint/leaving_stands.h"
 #include "places/scenarios/blueprint/people.h"
 #include "places/scenarios/blueprint/shorthand.h"
 #include "spec/blueprint/blueprint_fields.h"
@@ -129,8 +130,10 @@ BuiltScenario build_from(const json& blueprint, const json& said, const std::str
   if (!problems.empty()) throw InputError(std::move(problems));
   BuiltScenario built{scenario_json(blueprint), {}};
   const world::Scenario scenario = scenario_without_people(built.document, source, id);
-  const People people = read_people(blueprint, scenario.exits, place);
+  People people = read_people(blueprint, scenario, place);
   schemas::add_other_places(problems, compiled_schema().problems(said, source));
+  if (!problems.empty()) throw InputError(std::move(problems));
+  add_leaving_spectators(scenario, place, people);
   if (!problems.empty()) throw InputError(std::move(problems));
   built.crowd = crowd_of_people(scenario, people, problems);
   for (Problem& problem : problems) problem.source = source;

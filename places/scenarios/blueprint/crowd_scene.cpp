@@ -179,7 +179,8 @@ void add_sources(const Scenario& scenario, const People& people, const Solids& s
     closed_s = std::min(closed_s, reached_s(from, to, discs));
     const std::string state =
         source.towards ? state_towards(scenario.exits[*source.towards]) : state_name(source.doing);
-    scene.comment(fmt::format("/people/sources/{}", i));
+    scene.comment(source.of_stand ? fmt::format("/stands/{}/spectators", *source.of_stand)
+                                  : fmt::format("/people/sources/{}", i));
     scene.add_group({profile_name(source.speed_mps, "source", i),
                      state,
                      agents_at(points),

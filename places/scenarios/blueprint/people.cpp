@@ -8,6 +8,7 @@
 #include <string>
 
 #include "places/scenarios/blueprint/closing_doors.h"
+#include "places/scenarios/blueprint/leaving_stands.h"
 #include "spec/blueprint/people_fields.h"
 
 namespace throng::scenarios {
@@ -51,18 +52,19 @@ bool anybody_leaves(const People& people) {
          });
 }
 
-People read_people(const nlohmann::json& blueprint, const std::vector<world::Exit>& exits,
+People read_people(const nlohmann::json& blueprint, const world::Scenario& scenario,
                    const fields::FieldLocation& place) {
   People people;
   const fields::FieldLocation people_place = place.below("people");
   people_fields().read_checked(blueprint.at("people"), people, people_place);
   for (std::size_t i = 0; i < people.sources.size(); ++i) {
-    find_exits(people.sources[i], exits, people_place.below("sources").below(i));
+    find_exits(people.sources[i], scenario.exits, people_place.below("sources").below(i));
   }
   if (blueprint.contains("disasters")) {
     people.dangers = read_dangers(blueprint["disasters"], place.below("disasters"));
   }
-  if (people.groups.empty() && people.lines.empty() && people.sources.empty()) {
+  if (people.groups.empty() && people.lines.empty() && people.sources.empty() &&
+      !anybody_leaves_stands(scenario)) {
     people_place.reject("nobody", "\"groups\", \"lines\" or \"sources\"");
   }
   return people;

@@ -13,9 +13,9 @@ namespace throng::scenarios {
 /// Whether anybody leaves by an exit independently of disasters.
 bool anybody_leaves(const People& people);
 
-/// Reads "people" and "disasters" of a blueprint with these exits. `place` is the position of the
-/// blueprint; problems go to its list.
-People read_people(const nlohmann::json& blueprint, const std::vector<world::Exit>& exits,
+/// Reads "people" and "disasters" of a blueprint with the exits of this scenario. `place` is the
+/// position of the blueprint; problems go to its list.
+People read_people(const nlohmann::json& blueprint, const world::Scenario& scenario,
                    const fields::FieldLocation& place);
 
 }  // namespace throng::scenarios

@@ -38,7 +38,7 @@ Made build_and_run(const json& blueprint) {
       make_scenario(blueprint, "square.blueprint.json", folder.path(), "sq"), "sq");
   std::vector<Problem> problems;
   const std::string source = "square.blueprint.json";
-  made.people = read_people(blueprint, made.scenario.exits, {"", source, problems});
+  made.people = read_people(blueprint, made.scenario, {"", source, problems});
   EXPECT_TRUE(problems.empty());
   return made;
 }

@@ -16,7 +16,7 @@ export interface Hello {
   dt_s: number;
   max_s: number;
   people: number;
-  roles: number[]; ///< 0 a person, 1 a hazard, 2 absent, 3 an attacker
+  roles: number[]; ///< 0 a person, 1 a hazard, 2 absent, 3 an attacker, 4 a spectator
   states: string[];
   drones: {
     id: string;

@@ -7,7 +7,8 @@ import { type Capture, timeOf } from "./capture";
 const kBlockFrames = 32;
 const kHead = new RecordLayout(layouts.trajectories.head);
 const kAgent = new RecordLayout(layouts.trajectories.agent);
-const { person: kPersonRole, attacker: kAttackerRole } = layouts.agent_roles; ///< an attacker is a person, too
+const { person: kPerson, attacker: kAttacker, spectator: kSpectator } = layouts.agent_roles;
+const kPeople = new Set([kPerson, kAttacker, kSpectator]); ///< roles of people in images
 const kTracksPerRun = 1_000_000;
 
 /** Everybody's positions at some times. */
@@ -45,7 +46,7 @@ export function unseenAt(
   roles.forEach((role, agent) => {
     const at = (time * roles.length + agent) * kAgent.bytes;
     const x = kAgent.read(view, at, "position", 0);
-    if (x === layouts.trajectories.absent || (role !== kPersonRole && role !== kAttackerRole) || seen.has(agent + 1 + run * kTracksPerRun))
+    if (x === layouts.trajectories.absent || !kPeople.has(role) || seen.has(agent + 1 + run * kTracksPerRun))
       return;
     positions.push([origin[0] + step * x, origin[1] + step * kAgent.read(view, at, "position", 1)]);
   });

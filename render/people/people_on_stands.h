@@ -1,0 +1,55 @@
+// People on stands: their height above the ground and their postures along a trace.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "skinning/animate/spectator_pose.h"
+#include "world/stand.h"
+#include "world/trace.h"
+
+namespace throng::render {
+
+/// The stands of a scenario, to find how high people are.
+class StandFloors {
+ public:
+  explicit StandFloors(std::span<const world::Stand> stands);
+  /// Height of the floor (m); 0 outside of stands.
+  float height_m(const Eigen::Vector2f& point) const;
+
+ private:
+  std::vector<world::Stand> stands_;
+  std::vector<Eigen::AlignedBox2d> boxes_;  ///< around each stand
+};
+
+/// The posture that each state of a trace stands for; nothing if people in it walk.
+std::vector<std::optional<skinning::StandPosture>> stand_postures(const world::TraceHeader& header);
+
+/// The postures of a trace's people.
+class PeopleOnStands {
+ public:
+  PeopleOnStands(const world::Trace& trace, std::span<const world::Stand> stands);
+
+  /// Whether an agent has a posture at a step.
+  bool has_posture(std::size_t agent, std::size_t step) const;
+  const StandFloors& floors() const { return floors_; }
+  /// The posture of an agent at a time, if it has one at the step before.
+  std::optional<skinning::PostureTime> posture_at(std::size_t agent, std::size_t step,
+                                                  double time_s) const;
+
+ private:
+  /// A posture from a step on; nothing: walks, or is absent.
+  struct Change {
+    std::uint32_t step = 0;
+    std::optional<skinning::StandPosture> posture;
+  };
+
+  const world::Trace* trace_;
+  StandFloors floors_;
+  std::vector<std::vector<Change>> changes_;  ///< per agent; empty for those never on a stand
+};
+
+}  // namespace throng::render

@@ -1,0 +1,47 @@
+// The spectators of a scenario's stands: their seats, and their paths when they leave.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "sim/people/cheering.h"
+#include "world/scenario.h"
+#include "world/stand_departures.h"
+
+namespace throng::sim {
+
+/// A person on a seat.
+struct Spectator {
+  std::uint64_t key = 0;                            ///< of random numbers
+  Eigen::Vector2f seat = Eigen::Vector2f::Zero();   ///< m
+  Eigen::Vector2f ahead = Eigen::Vector2f::Zero();  ///< from there to where the person stands (m)
+  float yaw_rad = 0;
+  double place = 0;  ///< of the block among all blocks, 0 to 1
+  double rises_s = std::numeric_limits<double>::infinity();  ///< to leave
+  std::optional<world::WayDown> way;                         ///< of those who leave
+};
+
+/// Place and posture of a spectator.
+struct SpectatorNow {
+  Eigen::Vector2f position = Eigen::Vector2f::Zero();  ///< m
+  float yaw_rad = 0;
+  Posture posture = Posture::sitting;
+};
+
+/// The spectators of all stands.
+struct Spectators {
+  std::vector<Spectator> stay;
+  std::vector<Spectator> leave;  ///< in the order of the stands and world::departures()
+};
+
+/// Takes seats for all spectators. With `all_stay`, nobody leaves.
+Spectators take_seats(const std::vector<world::Stand>& stands, std::uint64_t seed, bool all_stay);
+
+/// A spectator at a time.
+SpectatorNow spectator_at(const Spectator& person, const CheeringWaves& waves, double time_s);
+
+}  // namespace throng::sim
