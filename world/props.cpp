@@ -112,7 +112,7 @@ const std::array<PropType, kPropKinds>& prop_types() {
       {"platform_shelter", {2.1, 0.85}, 2.8, C::street_furniture},
       {"rowboat", {2.1, 0.8}, 1, C::boat},
       {"barge", {9.5, 2.4}, 4.2, C::boat},
-      {"pontoon", {4, 1.3}, 1.6, C::boat},
+      {"pontoon", {4, 1.3}, 3.4, C::boat},
   }};
   return types;
 }

@@ -49,6 +49,8 @@ extern const std::string_view shader_sky_vert;
 extern const std::string_view shader_sky_frag;
 extern const std::string_view shader_smoke_vert;
 extern const std::string_view shader_smoke_frag;
+extern const std::string_view shader_beam_vert;
+extern const std::string_view shader_beam_frag;
 extern const std::string_view shader_rain_vert;
 extern const std::string_view shader_rain_frag;
 
