@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,5 +28,21 @@ struct Marking {
   Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
   double width_m = 0.12;
 };
+
+/// Convex parts, counter-clockwise, of the water areas that come after the area with this index;
+/// with none, of all.
+std::vector<std::vector<Eigen::Vector2d>> water_parts(
+    std::span<const GroundArea> areas, std::size_t after = std::numeric_limits<std::size_t>::max());
+
+/// Convex parts, counter-clockwise, of the water that no bridge covers.
+std::vector<std::vector<Eigen::Vector2d>> open_water(std::span<const GroundArea> areas);
+
+/// The parts of a convex polygon that lie in none of these convex ones.
+std::vector<std::vector<Eigen::Vector2d>> without(
+    const std::vector<Eigen::Vector2d>& polygon,
+    const std::vector<std::vector<Eigen::Vector2d>>& holes);
+
+/// Height of what shows at a point: that of the water, or 0, also on bridges (m).
+double surface_level_m(std::span<const GroundArea> areas, const Eigen::Vector2d& point);
 
 }  // namespace throng::world

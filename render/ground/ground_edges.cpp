@@ -13,7 +13,6 @@
 #include "base/geometry/triangulate.h"
 #include "render/ground/ground_heights.h"
 #include "render/ground/pitch.h"
-#include "render/ground/water_cuts.h"
 
 namespace throng::render {
 
@@ -30,7 +29,7 @@ class Mosaic {
   Mosaic(const GroundCover& cover, GroundBuilder& builder) : builder_(builder) {
     const Polygon& corners = cover.corners;
     for (const auto& [a, b, c] : geometry::triangulate(corners)) {
-      for (Polygon& part : without({corners[a], corners[b], corners[c]}, cover.holes)) {
+      for (Polygon& part : world::without({corners[a], corners[b], corners[c]}, cover.holes)) {
         parts_.push_back(std::move(part));
       }
     }

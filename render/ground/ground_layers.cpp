@@ -11,7 +11,6 @@
 #include "render/ground/ground_heights.h"
 #include "render/ground/ground_map.h"
 #include "render/ground/pitch.h"
-#include "render/ground/water_cuts.h"
 
 namespace throng::render {
 
@@ -128,22 +127,24 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario, Scen
     if (area.material == "water") continue;
     const double height_m = ground_height::kAreaM +
                             ground_height::kNextM * std::min(levels[i], ground_height::kMaxLevels);
-    const std::vector<Polygon> holes = water_parts(scenario, i);
+    const std::vector<Polygon> holes = world::water_parts(scenario.areas, i);
     bands(area.material, {area.corners, holes, height_m});
     layer(area.material, [&] {
       builder.set_outline(area.corners);
       for (const auto& triangle : geometry::triangulate(area.corners)) {
         const Polygon whole = {area.corners[triangle[0]], area.corners[triangle[1]],
                                area.corners[triangle[2]]};
-        for (const Polygon& part : without(whole, holes)) builder.add_in_cells(part, height_m);
+        for (const Polygon& part : world::without(whole, holes))
+          builder.add_in_cells(part, height_m);
       }
       builder.set_outline({});
       for (const Polygon& part : streets_beyond(scenario, i)) builder.add(part, height_m);
     });
   }
   const auto& [low, high] = scenario.ground;
-  bands(scenario.ground_material,
-        {{low, {high.x(), low.y()}, high, {low.x(), high.y()}}, water_parts(scenario), 0});
+  bands(scenario.ground_material, {{low, {high.x(), low.y()}, high, {low.x(), high.y()}},
+                                   world::water_parts(scenario.areas),
+                                   0});
   return layers;
 }
 

@@ -9,7 +9,6 @@
 #include "render/buildings/roof_details.h"
 #include "render/frame/frame.h"
 #include "render/ground/ground_decals.h"
-#include "render/ground/water_cuts.h"
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
 #include "render/scenery/far_land.h"
@@ -138,10 +137,10 @@ std::vector<PlacedProp> place_props(const world::Scenario& scenario, bool semant
   std::vector<PlacedProp> props;
   std::vector<Eigen::AlignedBox2d> taken;
   PropIds ids(semantic);
-  const bool has_water = !water_parts(scenario).empty();
+  const bool has_water = !world::water_parts(scenario.areas).empty();
   for (const world::Prop& prop : scenario.props) {
     PropMesh mesh = prop_shape(prop, ids.now(world::prop_type(prop.kind).semantic_class));
-    if (has_water) sink(surface_level_m(scenario, prop.position), mesh);
+    if (has_water) sink(world::surface_level_m(scenario.areas, prop.position), mesh);
     props.push_back({.mesh = std::move(mesh)});
     ids.next();
   }

@@ -11,7 +11,6 @@
 #include "render/buildings/roof_details.h"
 #include "render/frame/frame.h"
 #include "render/ground/ground_tone.h"
-#include "render/ground/water_cuts.h"
 #include "render/scenery/hedges.h"
 #include "render/scenery/railings.h"
 
@@ -50,7 +49,7 @@ class GroundGrid {
   GroundGrid(const world::Scenario& scenario, SceneryMesh& mesh)
       : scenario_(scenario),
         mesh_(mesh),
-        holes_(water_parts(scenario)),
+        holes_(world::water_parts(scenario.areas)),
         xs_(grid_lines(scenario.ground.min.x(), scenario.ground.max.x(), 0, holes_)),
         ys_(grid_lines(scenario.ground.min.y(), scenario.ground.max.y(), 1, holes_)),
         first_(static_cast<std::uint32_t>(mesh.vertices.size())) {
@@ -85,7 +84,7 @@ class GroundGrid {
       const double x1 = xs_[column + 1];
       const double y0 = ys_[row];
       const double y1 = ys_[row + 1];
-      const auto parts = without({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, holes_);
+      const auto parts = world::without({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, holes_);
       const bool is_whole = parts.size() == 1 && parts.front().size() == 4 &&
                             parts.front().front() == Eigen::Vector2d(x0, y0) &&
                             parts.front()[2] == Eigen::Vector2d(x1, y1);

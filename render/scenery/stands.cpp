@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 constexpr double kStandCellM = 14;
 constexpr double kSeatHalfM = 0.22;  // half the width of a seat's shell
 constexpr double kSeatBackM = 0.36;  // height of its back above the seat
-const Vector3d kStandConcrete(0.3, 0.295, 0.28);
-const Vector3d kStandStair(0.4, 0.39, 0.36);
+const Vector3d kStandConcrete(0.235, 0.23, 0.215);
+const Vector3d kStandStair(0.3, 0.29, 0.265);
 const Vector3d kStandSteel(0.3, 0.31, 0.32);
 const Vector3d kStandDark(0.02, 0.02, 0.022);
 
@@ -160,7 +160,10 @@ class StandBuilder {
     const double z = floor_m(row);
     const double below = row > 0 ? floor_m(row - 1) : 0;
     for_pieces(row, [&](double a, double b) {
-      level(a, b, front, front + stand_.row_depth_m, z, kStandConcrete);
+      // Two strips: light differs between the feet and what is below the seats.
+      const double middle = front + 0.55 * stand_.row_depth_m;
+      level(a, b, front, middle, z, kStandConcrete);
+      level(a, b, middle, front + stand_.row_depth_m, z, 0.92 * kStandConcrete);
       if (row > 0) facing_field(a, b, front, below, z, 0.8 * kStandConcrete);
     });
     // The sides of the stand, row by row.
@@ -178,6 +181,7 @@ class StandBuilder {
       at(x, front).quad(inside, 0.9 * kStandConcrete, Finish::matt);
       const double a = std::min(x, inner);
       level(a, a + 0.12, front, front + stand_.row_depth_m, z + 0.9, kStandConcrete);
+      facing_field(a, a + 0.12, front, row > 0 ? below + 0.9 : 0, z + 0.9, kStandConcrete);
     }
   }
 

@@ -18,8 +18,8 @@ constexpr double kTrackGaugeM = 1.435;  // between the rails' inner sides
 constexpr double kRailHeadM = 0.07;     // width of a rail's head
 constexpr double kBallastM = 0.045;     // height of the ballast
 constexpr double kSleeperTopM = 0.07;
-const Vector3d kBallastPaint(0.2, 0.185, 0.165);
-const Vector3d kSleeperPaint(0.33, 0.32, 0.3);
+const Vector3d kBallastPaint(0.105, 0.098, 0.09);
+const Vector3d kSleeperPaint(0.2, 0.19, 0.175);
 
 /// Ballast with sloping shoulders; patches differ in tone, and stones near by.
 void add_ballast(PropBuilder& builder, double length_m, Random& random) {

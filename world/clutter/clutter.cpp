@@ -117,7 +117,8 @@ class Strewer {
     for (const Building& building : scenario_.buildings) {
       constexpr double kMinHouseM = 2.8;
       if (building.height_m < kMinHouseM || building.facade == Facade::hedge ||
-          building.facade == Facade::fence || building.facade == Facade::railing) {
+          building.facade == Facade::fence || building.facade == Facade::railing ||
+          building.facade == Facade::stand) {
         continue;
       }
       for (std::size_t i = 0; i < building.footprint.size(); ++i) {

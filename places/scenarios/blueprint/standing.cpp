@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/geometry/polygon.h"
 #include "base/geometry/rectangle.h"
@@ -39,6 +40,7 @@ Solids::Solids(const world::Scenario& scenario) {
     outlines_.push_back(building.footprint);
   }
   for (const world::Prop& prop : scenario.props) outlines_.push_back(prop_outline(prop));
+  for (auto& part : world::open_water(scenario.areas)) outlines_.push_back(std::move(part));
   for (const auto& outline : outlines_) walls_.add_polygon(in_floats(outline), kClass);
   walls_.build();
 }
