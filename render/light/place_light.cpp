@@ -120,14 +120,20 @@ std::vector<std::uint32_t> list_points(const SceneryMesh& mesh, const Eigen::Ali
 std::vector<std::uint32_t> list_points(const PropMesh& mesh, const Effort& effort, float share_m,
                                        Points& points) {
   constexpr std::size_t kCardCorners = 4;
+  constexpr float kNearDetailM = 0.3F;
   std::vector<std::uint32_t> used;
   used.reserve(mesh.vertices.size());
+  // Light hardly varies along what is only drawn near by.
+  std::vector<std::uint8_t> shows_far(mesh.vertices.size());
+  const std::size_t far_count = std::min(mesh.far_indices, mesh.indices.size());
+  for (std::size_t i = 0; i < far_count; ++i) shows_far[mesh.indices[i]] = 1;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const PropVertex& vertex = mesh.vertices[i];
     const bool is_leaf = vertex.paint[3] == static_cast<std::uint8_t>(Finish::leaves);
     if (!is_leaf || i + kCardCorners > mesh.vertices.size()) {
-      used.push_back(points.add(
-          {vertex_position(vertex), vertex_normal(vertex), effort.props, false, share_m}));
+      const float share = shows_far[i] != 0 ? share_m : std::max(share_m, kNearDetailM);
+      used.push_back(
+          points.add({vertex_position(vertex), vertex_normal(vertex), effort.props, false, share}));
       continue;
     }
     // A card's corners share the light of its middle.
