@@ -43,7 +43,8 @@ world::Scenario load_square(const json& square) {
   return scenarios::load_scenario(folder.write("s.blueprint.json", square.dump()), "s");
 }
 
-world::Trace simulate_trace(const world::Scenario& scenario, double duration_s, std::uint64_t seed = 7) {
+world::Trace simulate_trace(const world::Scenario& scenario, double duration_s,
+                            std::uint64_t seed = 7) {
   RunSpec spec;
   spec.seed = seed;
   spec.duration_s = duration_s;
