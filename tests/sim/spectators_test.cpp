@@ -82,7 +82,7 @@ TEST(Spectators, FollowTheCrowdAndSitOnTheirSeats) {
 }
 
 TEST(Spectators, GetUpAndCheerTogetherNowAndThen) {
-  const world::Trace trace = simulate_trace(load_square(blueprint(200)), 32);
+  const world::Trace trace = simulate_trace(load_square(blueprint(190)), 32);
   std::size_t peak_step = 0;
   int most = 0;
   double first_s = -1;
@@ -99,12 +99,12 @@ TEST(Spectators, GetUpAndCheerTogetherNowAndThen) {
   }
   EXPECT_GE(first_s, 5);
   EXPECT_LE(first_s, 15 + 1.5);
-  EXPECT_NEAR(most, 0.72 * 200, 30);
+  EXPECT_NEAR(most, 0.72 * 190, 30);
   int cheering = 0;
   for (std::size_t agent = 3; agent < trace.agents(); ++agent) {
     cheering += state_at(trace, peak_step, agent) == "cheering" ? 1 : 0;
   }
-  EXPECT_NEAR(cheering, 0.49 * 200, 30);
+  EXPECT_NEAR(cheering, 0.49 * 190, 30);
   // They move with the posture, and no faster than people get up.
   for (std::size_t step = 1; step < trace.steps(); ++step) {
     for (std::size_t agent = 3; agent < trace.agents(); ++agent) {
