@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/frame/view.h"
+#include "skinning/levels.h"
 
 namespace throng::render {
 
@@ -107,9 +108,16 @@ Eigen::AlignedBox2f cut_box(const BodyShape& shape, const std::vector<Eigen::Vec
 
 }  // namespace
 
+skinning::PoseBlend drawn_pose(const skinning::PoseBlend& pose, std::size_t level) {
+  if (level < skinning::kDistantLevel) return pose;
+  const std::uint32_t nearer = pose.blend < 0.5F ? pose.a : pose.b;
+  return {nearer, nearer, 0};
+}
+
 skinning::Palette blended_palette(const skinning::Population& population,
                                   const PersonInstance& person) {
   const skinning::Palette& a = population.palette(person.appearance.character, person.pose.a);
+  if (person.pose.blend == 0) return a;
   const skinning::Palette& b = population.palette(person.appearance.character, person.pose.b);
   skinning::Palette blended;
   for (std::size_t bone = 0; bone < blended.size(); ++bone) {
