@@ -180,7 +180,7 @@ TEST(Spectators, LeaveAsTheSamePeople) {
       ++step;
       ASSERT_LT((trace.position[trace.at(step, agent)] - trace.position[trace.at(step - 1, agent)])
                     .norm(),
-                0.15F);
+                0.3F);  // the crowd takes its own first step
     }
     const std::size_t later = std::min(step + 20, trace.steps() - 1);
     EXPECT_THAT(world::kStandStates,
