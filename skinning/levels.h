@@ -25,9 +25,9 @@ inline constexpr std::array<DetailLevel, 8> kDetailLevels = {{
     {800, 80},
     {400, 56},
     {250, 40},
-    {170, 18},
-    {64, 12},
-    {32, 0},
+    {170, 24},
+    {64, 16},
+    {36, 0},
 }};
 
 /// The first of the levels for the distance. Each of their vertices moves with one bone, and bodies

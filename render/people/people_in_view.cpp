@@ -14,7 +14,7 @@ namespace {
 /// Image height (px) of people whose shadows show a head.
 constexpr double kFineShadowPx = 40;
 /// Image height of people whose shadows have the coarsest shape.
-constexpr double kCoarseShadowPx = 12;
+constexpr double kCoarseShadowPx = 16;
 /// Image height of people on stands who cast shadows: those of others are hidden by people.
 constexpr double kStandShadowPx = 20;
 

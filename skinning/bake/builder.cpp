@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 24;
+constexpr int kBuilderVersion = 25;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -157,6 +157,13 @@ void make_rigid(Mesh& mesh) {
   }
 }
 
+/// Triangles that a level may have to keep its extent: those of the finer one, but not for the last
+/// one, of which thousands are drawn.
+std::size_t max_triangles(std::size_t level) {
+  const bool may_have_more = level > 1 && level + 1 < kDetailLevels.size();
+  return kDetailLevels[may_have_more ? level - 1 : level].triangles;
+}
+
 class Bakery {
  public:
   Bakery(const fs::path& package, const std::vector<PersonSpec>& people,
@@ -216,9 +223,9 @@ class Bakery {
       if (level > 0) {
         const std::size_t carried = item ? item->indices.size() / 3 : 0;
         const std::size_t triangles = kDetailLevels[level].triangles - carried;
-        asset.levels.push_back(
-            hull.level(triangles, image, extent, bake_slack_m(level, dressed.stature_m),
-                       level > 1 ? kDetailLevels[level - 1].triangles - carried : triangles));
+        asset.levels.push_back(hull.level(triangles, image, extent,
+                                          bake_slack_m(level, dressed.stature_m),
+                                          max_triangles(level) - carried));
       }
       if (level >= kDistantLevel) make_rigid(asset.levels.back());
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
