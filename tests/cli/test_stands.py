@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from program import FolderTest, made, printed, throng, write_json
+from program import FolderTest, printed, throng, write_json
 
 ROWS, DEPTH, RISE, FRONT = 6, 0.85, 0.38, 1.0
 STAND = {"id": "main", "from": [-15, -3], "to": [15, -3], "rows": ROWS, "front_height_m": FRONT}
@@ -60,7 +60,7 @@ class Stands(FolderTest):
 
     def test_boxes_are_at_the_seats(self):
         dataset = self.dataset({"count": 120, "seed": 2}, 2)
-        coco = json.loads((dataset / "annotations" / "coco.json").read_text(encoding="utf-8"))
+        coco = json.loads((dataset / "annotations" / "instances.json").read_text(encoding="utf-8"))
         first = min(image["id"] for image in coco["images"])
         people = [a for a in coco["annotations"] if a["image_id"] == first and a["position"][2] > 0.05]
         self.assertGreater(len(people), 60)
