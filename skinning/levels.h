@@ -17,20 +17,19 @@ struct DetailLevel {
 /// squared height in pixels, and half of the triangles face the camera), so that more triangles
 /// would cost time without visible effect. tests/skinning/levels_test.cpp verifies that the change
 /// of levels is invisible, for all characters from all sides. Characters of the library have more
-/// triangles where they need them to keep their extent (extent_slack_m()). The last two levels are
-/// for people in the distance, of whom thousands fill a stand, and for shadows.
-inline constexpr std::array<DetailLevel, 8> kDetailLevels = {{
+/// triangles where they need them to keep their extent (extent_slack_m()). The last level is for
+/// people in the distance, of whom thousands fill a stand, and for shadows.
+inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
     {8000, 160},
     {3000, 110},
     {800, 80},
     {400, 56},
     {250, 40},
-    {170, 24},
-    {64, 16},
-    {36, 0},
+    {170, 16},
+    {64, 0},
 }};
 
-/// The first of the levels for the distance. Each of their vertices moves with one bone, and bodies
+/// The first level for the distance. Each of its vertices moves with one bone, and bodies
 /// have a frame of their clip instead of a blend of two.
 inline constexpr std::size_t kDistantLevel = 6;
 

@@ -13,8 +13,6 @@ namespace {
 
 /// Image height (px) of people whose shadows show a head.
 constexpr double kFineShadowPx = 40;
-/// Image height of people whose shadows have the coarsest shape.
-constexpr double kCoarseShadowPx = 16;
 /// Image height of people on stands who cast shadows: those of others are hidden by people.
 constexpr double kStandShadowPx = 20;
 
@@ -90,7 +88,7 @@ PersonDraw PeopleFinder::caster(std::uint32_t person, const PersonInstance& inst
   const double distance_m = (instance.position.cast<double>() - camera.pose.center()).norm();
   const double height_px =
       camera.intrinsics.fy_px * character.stature_m / std::max(distance_m, double{kNear});
-  const std::size_t finer = height_px < kCoarseShadowPx ? 0 : height_px < kFineShadowPx ? 1 : 3;
+  const std::size_t finer = height_px < kFineShadowPx ? 0 : 2;
   const std::size_t level =
       character.levels.size() - 1 - std::min(finer, character.levels.size() - 1);
   return {person, static_cast<std::uint32_t>(level), shading_of(level), 0};

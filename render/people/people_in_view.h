@@ -51,8 +51,8 @@ class PeopleFinder {
 
   /// Whether a person's shadow is drawn: of people on stands only if they are near.
   bool casts_shadow(const PersonInstance& instance, const camera::Camera& camera) const;
-  /// The draw of a person into the shadow map: three levels finer than the coarsest, with a head
-  /// and feet, where the camera would see a standing person kFineShadowPx tall or taller.
+  /// The draw of a person into the shadow map: two levels finer than the coarsest, with a head and
+  /// feet, where the camera would see a standing person kFineShadowPx tall or taller.
   PersonDraw caster(std::uint32_t person, const PersonInstance& instance,
                     const camera::Camera& camera) const;
 

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 25;
+constexpr int kBuilderVersion = 26;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -157,11 +157,9 @@ void make_rigid(Mesh& mesh) {
   }
 }
 
-/// Triangles that a level may have to keep its extent: those of the finer one, but not for the last
-/// one, of which thousands are drawn.
+/// Triangles that a level may have to keep its extent: those of the finer one.
 std::size_t max_triangles(std::size_t level) {
-  const bool may_have_more = level > 1 && level + 1 < kDetailLevels.size();
-  return kDetailLevels[may_have_more ? level - 1 : level].triangles;
+  return kDetailLevels[level > 1 ? level - 1 : level].triangles;
 }
 
 class Bakery {
