@@ -194,6 +194,7 @@ void Renderer::State::draw_shadows(const Scene& scene, const camera::Camera& cam
   std::vector<PersonDraw> casters;
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
     const PersonInstance& person = scene.people[i];
+    if (!finder.casts_shadow(person, camera)) continue;
     const skinning::Character& character = population->characters[person.appearance.character];
     const double reach = kPersonReach * character.stature_m;
     Eigen::AlignedBox2d shade(person.position.head<2>().cast<double>());

@@ -25,9 +25,13 @@ inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
     {800, 80},
     {400, 56},
     {250, 40},
-    {170, 14},
+    {170, 16},
     {64, 0},
 }};
+
+/// The first level for the distance. Each of its vertices moves with one bone, and bodies
+/// have a frame of their clip instead of a blend of two.
+inline constexpr std::size_t kDistantLevel = 6;
 
 /// Levels that are drawn.
 inline constexpr std::size_t kDrawnLevels = kDetailLevels.size();

@@ -241,8 +241,10 @@ void ConstancyCheck::check_track(const formats::Image& image, const formats::Per
   const double upright = person.box_size.head<2>().maxCoeff();
   // Headgear and hair add a little; people who lie, bend or sit have a lower box.
   const double height_m = person.box_size.z();
-  // Walkers neither raise their arms nor bend.
-  const bool is_upright = person.state == "walking" && height_m > 1.5 * upright;
+  // Walkers neither raise their arms nor bend; people on a stand move as they get up, too.
+  constexpr double kOnStandM = 0.05;
+  const bool is_upright =
+      person.state == "walking" && height_m > 1.5 * upright && person.position.z() < kOnStandM;
   const double highest_m = is_upright ? 1.1 * stature_m : stature_m + 0.35;
   const double lowest_m = is_upright ? 0.88 * stature_m : 0;
   if (height_m > highest_m || height_m < lowest_m) {

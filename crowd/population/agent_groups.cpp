@@ -212,7 +212,7 @@ void load_group(const Element& group, GroupContext& context, Crowd& crowd,
   std::vector<Eigen::Vector2f> entrances(plan.time_s.size());
   for (std::size_t i = 0; i < entrances.size(); ++i) entrances[i] = places[i % places.size()];
   add_agents(entrances, *profile, *state, facing.get(), context, crowd);
-  if (context.social_groups) {
+  if (context.social_groups && plan.come_in_groups) {
     form_arriving_groups(*context.social_groups, first, plan.time_s, context.seed, crowd);
   }
   processes.push_back(make_arrivals(std::move(plan), crowd));

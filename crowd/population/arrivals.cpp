@@ -158,7 +158,10 @@ const ArrivalRegistry& arrival_registry() {
               "most_alive"),
       optional(
           number("closed_from", "agents that have not arrived by then never do, in s", 0, kMaxTime),
-          "1e7")};
+          "1e7"),
+      optional(word("in_groups", {"yes", "no"},
+                    "whether members of a social group arrive together; no: nobody is in one"),
+               "yes")};
   static const ArrivalRegistry kRegistry(
       {{
           {"rate",
@@ -181,9 +184,12 @@ ArrivalPlan load_arrivals(const Element& element, std::vector<Eigen::Vector2f> p
   const std::unique_ptr<ArrivalTimes> times = arrival_registry().make(element, context);
   const Attributes attributes(element, arrival_registry().find(element).attributes);
   check_count(element, static_cast<double>(first_agent + times->time_s.size()));
-  return {first_agent, std::move(times->time_s), std::move(places),
+  return {first_agent,
+          std::move(times->time_s),
+          std::move(places),
           static_cast<std::size_t>(attributes.integer("max_present")),
-          attributes.number("closed_from")};
+          attributes.number("closed_from"),
+          attributes.text("in_groups") == "yes"};
 }
 
 std::unique_ptr<Process> make_arrivals(ArrivalPlan plan, Crowd& crowd) {

@@ -32,6 +32,7 @@ struct ArrivalPlan {
   std::vector<Eigen::Vector2f> places;  ///< possible positions, m
   std::size_t max_alive = 0;            ///< nobody arrives while this number of agents is present
   double closed_from_s = 0;             ///< agents that have not arrived by then never do
+  bool come_in_groups = true;           ///< whether social groups arrive together
 };
 
 /// Reads an <Arrivals> element; `places` are the positions of the group's generators. Throws

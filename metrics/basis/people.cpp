@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -58,7 +59,8 @@ PeopleTracker::PeopleTracker(const world::TraceHeader& header, const world::Scen
     : scenario_(scenario),
       alarm_(std::move(alarm)),
       dt_s_(header.dt_s),
-      is_recorded_(header.crowd.model == world::kRecordedCrowd) {
+      is_recorded_(header.crowd.model == world::kRecordedCrowd),
+      stand_states_(header.first_stand_state().value_or(std::numeric_limits<std::size_t>::max())) {
   for (const std::string& name : header.state_names) {
     const auto& aware = alarm_.aware_states;
     follows_.push_back(lower_case(name).find("follow") != std::string::npos);
@@ -77,7 +79,9 @@ PeopleTracker::PeopleTracker(const world::TraceHeader& header, const world::Scen
 void PeopleTracker::step(const PeopleStep& step) {
   time_s_ = step.time_s;
   for (Person& person : people_) {
-    const bool present = (step.flags[person.record.agent] & world::kPresent) != 0;
+    const std::size_t agent = person.record.agent;
+    const bool present =
+        (step.flags[agent] & world::kPresent) != 0 && step.state[agent] < stand_states_;
     if (present) arrive(person, step);
     if (!person.seen) continue;
     if (present || person.present_before) count_doors(person, step, present);

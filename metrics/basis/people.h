@@ -129,6 +129,7 @@ class PeopleTracker {
   world::Alarm alarm_;
   double dt_s_;
   bool is_recorded_;
+  std::size_t stand_states_;  ///< the first state of people on stands, who have not come yet
   std::vector<bool> follows_, is_down_, is_aware_;  ///< per state of the header
   std::vector<ExitLine> lines_;
   std::vector<Person> people_;

@@ -285,7 +285,8 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
   const Eigen::AlignedBox2d image(Vector2d(0, 0), Vector2d(frame.width(), frame.height()));
   std::vector<PersonInView> kept;
   for (PersonInView& person : frame.people) {
-    const PersonInstance& instance = *instances.at(person.agent);
+    PersonInstance instance = *instances.at(person.agent);
+    instance.pose = drawn_pose(instance.pose, person.level);
     const skinning::Character& character = population_->characters[instance.appearance.character];
     const skinning::Mesh& mesh = character.levels[person.level];
     const std::vector<skinning::Part> parts = select_parts(character, mesh, Share::body);

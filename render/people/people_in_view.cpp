@@ -13,6 +13,8 @@ namespace {
 
 /// Image height (px) of people whose shadows show a head.
 constexpr double kFineShadowPx = 40;
+/// Image height of people on stands who cast shadows: those of others are hidden by people.
+constexpr double kStandShadowPx = 20;
 
 /// The image with a margin on all sides, of which only the pixels `measured` are left.
 Eigen::AlignedBox2d listed_pixels(const camera::Intrinsics& image, int margin_px,
@@ -71,6 +73,15 @@ std::span<const SkinPoint> PeopleFinder::head_points(std::uint32_t character,
   return bodies_[character][std::min(level, kCoarsest)].head;
 }
 
+bool PeopleFinder::casts_shadow(const PersonInstance& instance,
+                                const camera::Camera& camera) const {
+  constexpr float kOnGroundM = 0.01F;
+  if (instance.position.z() < kOnGroundM) return true;
+  const double distance_m = (instance.position.cast<double>() - camera.pose.center()).norm();
+  const double stature_m = population_->characters[instance.appearance.character].stature_m;
+  return camera.intrinsics.fy_px * stature_m > kStandShadowPx * distance_m;
+}
+
 PersonDraw PeopleFinder::caster(std::uint32_t person, const PersonInstance& instance,
                                 const camera::Camera& camera) const {
   const skinning::Character& character = population_->characters[instance.appearance.character];
@@ -124,7 +135,7 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
   std::vector<Seen> seen;
   seen.reserve(scene.people.size());
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
-    const PersonInstance& person = scene.people[i];
+    PersonInstance person = scene.people[i];
     check(person.appearance.character < population_->characters.size() &&
               std::max(person.pose.a, person.pose.b) < population_->palettes_per_character,
           "people use characters and palettes that the population has");
@@ -135,6 +146,7 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     const double depth_m = std::max<double>(camera.project(middle).depth_m, kNear);
     const double height_px = camera.intrinsics.fy_px * character.stature_m / depth_m;
     const PersonDraw draw = draw_of(i, height_px, depth_m, character.levels.size());
+    person.pose = drawn_pose(person.pose, draw.level);
     const skinning::Palette palette = blended_palette(*population_, person);
     const auto box_of = [&](const std::vector<std::vector<BodyShape>>& shapes) {
       const BodyShape& shape = shapes[person.appearance.character][draw.level];

@@ -49,6 +49,8 @@ class PeopleFinder {
   /// computed.
   std::span<const SkinPoint> head_points(std::uint32_t character, std::size_t level) const;
 
+  /// Whether a person's shadow is drawn: of people on stands only if they are near.
+  bool casts_shadow(const PersonInstance& instance, const camera::Camera& camera) const;
   /// The draw of a person into the shadow map: two levels finer than the coarsest, with a head and
   /// feet, where the camera would see a standing person kFineShadowPx tall or taller.
   PersonDraw caster(std::uint32_t person, const PersonInstance& instance,

@@ -13,6 +13,7 @@
 #include "render/frame/frame.h"
 #include "render/gl/shaders.h"
 #include "render/people/device_palettes.h"
+#include "render/people/person_geometry.h"
 
 namespace throng::render {
 
@@ -233,11 +234,12 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
       batches.push_back({level, draw.shading, static_cast<std::uint32_t>(instances.size()), 0});
     }
     ++batches.back().count;
+    const skinning::PoseBlend pose = drawn_pose(person.pose, draw.level);
     instances.push_back(
         {{person.position.x(), person.position.y(), person.position.z()},
-         first_palette + person.pose.a,
-         first_palette + person.pose.b,
-         std::bit_cast<std::uint32_t>(person.pose.blend),
+         first_palette + pose.a,
+         first_palette + pose.b,
+         std::bit_cast<std::uint32_t>(pose.blend),
          id_of_agent(person.agent),
          packed(person.appearance.tint),
          draw.shift,
@@ -310,10 +312,11 @@ void PeoplePass::upload_next(std::span<const PersonInstance> people,
               std::max(person.pose.a, person.pose.b) < palettes_per_character_,
           "people keep their bodies");
     const std::uint32_t first_palette = person.appearance.character * palettes_per_character_;
+    const skinning::PoseBlend pose = drawn_pose(person.pose, draw.level);
     instance = {{person.position.x(), person.position.y(), person.position.z()},
-                first_palette + person.pose.a,
-                first_palette + person.pose.b,
-                std::bit_cast<std::uint32_t>(person.pose.blend),
+                first_palette + pose.a,
+                first_palette + pose.b,
+                std::bit_cast<std::uint32_t>(pose.blend),
                 1,
                 {std::cos(person.yaw_rad), std::sin(person.yaw_rad)}};
   }

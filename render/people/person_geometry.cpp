@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/frame/view.h"
+#include "skinning/levels.h"
 
 namespace throng::render {
 
@@ -47,30 +48,38 @@ SkinPoint skin_point(const skinning::Vertex& vertex) {
 /// share straight there.
 class Projector {
  public:
+  /// The palette must outlive this object.
   Projector(const skinning::Palette& palette, const Eigen::Matrix4f& image_from_model)
-      : up_(image_from_model.col(2)) {
-    for (std::size_t bone = 0; bone < palette.size(); ++bone) {
-      Eigen::Matrix4f posed = Eigen::Matrix4f::Identity();
-      posed.topRows<3>() = palette[bone];
-      image_from_rest_[bone] = image_from_model * posed;
-    }
-  }
+      : palette_(palette), image_from_model_(image_from_model), up_(image_from_model.col(2)) {}
 
-  Eigen::Vector4f operator()(const SkinPoint& point) const {
-    Eigen::Vector4f p = point.weights[0] * (image_from_rest_[point.bones[0]] * point.rest);
+  Eigen::Vector4f operator()(const SkinPoint& point) {
+    Eigen::Vector4f p = point.weights[0] * (matrix(point.bones[0]) * point.rest);
     for (std::uint32_t k = 1; k < point.bone_count; ++k) {
-      p += point.weights[k] * (image_from_rest_[point.bones[k]] * point.rest);
+      p += point.weights[k] * (matrix(point.bones[k]) * point.rest);
     }
     return p + std::max(kAboveGround - p.w(), 0.0F) * up_;
   }
 
  private:
+  /// Computed for the bones that points have: few of a head, or of people in the distance.
+  const Eigen::Matrix4f& matrix(std::size_t bone) {
+    if ((known_ >> bone & 1U) == 0) {
+      known_ |= 1U << bone;
+      Eigen::Matrix4f posed = Eigen::Matrix4f::Identity();
+      posed.topRows<3>() = palette_[bone];
+      image_from_rest_[bone] = image_from_model_ * posed;
+    }
+    return image_from_rest_[bone];
+  }
+
+  const skinning::Palette& palette_;
+  Eigen::Matrix4f image_from_model_;
+  std::uint32_t known_ = 0;
   std::array<Eigen::Matrix4f, skinning::kBoneCount> image_from_rest_;
   Eigen::Vector4f up_;
 };
 
-std::vector<Eigen::Vector4f> projected_vertices(const skinning::Mesh& mesh,
-                                                const Projector& project) {
+std::vector<Eigen::Vector4f> projected_vertices(const skinning::Mesh& mesh, Projector project) {
   std::vector<Eigen::Vector4f> projected;
   projected.reserve(mesh.vertices.size());
   for (const skinning::Vertex& vertex : mesh.vertices) {
@@ -107,9 +116,16 @@ Eigen::AlignedBox2f cut_box(const BodyShape& shape, const std::vector<Eigen::Vec
 
 }  // namespace
 
+skinning::PoseBlend drawn_pose(const skinning::PoseBlend& pose, std::size_t level) {
+  if (level < skinning::kDistantLevel) return pose;
+  const std::uint32_t nearer = pose.blend < 0.5F ? pose.a : pose.b;
+  return {nearer, nearer, 0};
+}
+
 skinning::Palette blended_palette(const skinning::Population& population,
                                   const PersonInstance& person) {
   const skinning::Palette& a = population.palette(person.appearance.character, person.pose.a);
+  if (person.pose.blend == 0) return a;
   const skinning::Palette& b = population.palette(person.appearance.character, person.pose.b);
   skinning::Palette blended;
   for (std::size_t bone = 0; bone < blended.size(); ++bone) {
@@ -184,7 +200,7 @@ Eigen::AlignedBox2i measured_pixels(const camera::Intrinsics& image, const Rows&
 
 Eigen::AlignedBox2d silhouette_box(const BodyShape& shape, const skinning::Palette& palette,
                                    const PersonInstance& person, const camera::Camera& camera) {
-  const Projector project(palette, image_from_model(person, camera));
+  Projector project(palette, image_from_model(person, camera));
   // Bounds of u, v and z at once; the fourth value is unused.
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Eigen::Array4f low = Eigen::Array4f::Constant(kInfinity);
@@ -240,7 +256,7 @@ Eigen::AlignedBox2d limited(const Eigen::AlignedBox2d& box, const camera::Intrin
 
 Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Palette& palette,
                              const PersonInstance& person, const camera::Camera& camera) {
-  const Projector project(palette, image_from_model(person, viewing_camera(camera)));
+  Projector project(palette, image_from_model(person, viewing_camera(camera)));
   Eigen::AlignedBox2d box;
   for (const SkinPoint& point : head) {
     if (const auto place = shown_place(camera.intrinsics, project(point))) box.extend(*place);

@@ -25,6 +25,10 @@ inline constexpr float kAboveGround = 0.002F;
 inline constexpr float kHeadShare = 0.93F;
 inline constexpr float kHipsShare = 0.53F;
 
+/// The pose in which a person is drawn and measured at a level of detail: in the distance, the
+/// nearer one of the two that it blends.
+skinning::PoseBlend drawn_pose(const skinning::PoseBlend& pose, std::size_t level);
+
 /// The blend of the instance's two palettes.
 skinning::Palette blended_palette(const skinning::Population& population,
                                   const PersonInstance& person);

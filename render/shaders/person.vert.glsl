@@ -41,7 +41,14 @@ mat3x4 blend_rows(uvec3 pose) {
   uint bones = skin.x;
   vec4 weight = unpackUnorm4x8(skin.y);
   int count = int(dot(vec4(greaterThan(weight, vec4(0.0))), vec4(1.0)));
-  for (int k = 0; k < count; ++k) {
+  // In the distance people have one palette: a loop ends where it has ended for all vertices.
+  int single = b > 0.0 ? 0 : count;
+  for (int k = 0; k < single; ++k) {
+    rows += weight.x * read_rows(texelFetch(posed_bones, int(pose.x) * kBones + int(first_byte(bones))));
+    bones >>= 8;
+    weight = weight.yzwx;
+  }
+  for (int k = single; k < count; ++k) {
     int bone = int(first_byte(bones));
     mat3x4 rows_a = read_rows(texelFetch(posed_bones, int(pose.x) * kBones + bone));
     mat3x4 rows_b = read_rows(texelFetch(posed_bones, int(pose.y) * kBones + bone));

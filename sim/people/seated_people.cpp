@@ -67,10 +67,14 @@ Spectators take_seats(const std::vector<world::Stand>& stands, std::uint64_t see
 SpectatorNow spectator_at(const Spectator& person, const CheeringWaves& waves, double time_s) {
   if (person.way && time_s >= person.rises_s) {
     const double walked_s = time_s - person.rises_s;
-    const world::OnTheWay now = person.way->at(walked_s);
     if (walked_s < world::kGetUpS) {
-      return {now.position.cast<float>(), person.yaw_rad, Posture::standing};
+      // Some stand already.
+      const double before = waves.posture_at(person.rises_s, person.key, person.place).risen;
+      const double risen = std::lerp(before, 1.0, walked_s / world::kGetUpS);
+      return {person.seat + static_cast<float>(risen) * person.ahead, person.yaw_rad,
+              Posture::standing};
     }
+    const world::OnTheWay now = person.way->at(walked_s);
     const bool walks = now.velocity.norm() > 0;
     const double yaw_rad = std::atan2(now.velocity.y(), now.velocity.x());
     return {now.position.cast<float>(), walks ? static_cast<float>(yaw_rad) : person.yaw_rad,

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 23;
+constexpr int kBuilderVersion = 26;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -148,6 +148,20 @@ float bake_slack_m(std::size_t level, float stature_m) {
   return static_cast<float>(kShare * extent_slack_m(level, stature_m));
 }
 
+/// Lets every vertex move with the bone that has the most of it.
+void make_rigid(Mesh& mesh) {
+  for (Vertex& vertex : mesh.vertices) {
+    const auto most = std::max_element(vertex.weights.begin(), vertex.weights.end());
+    vertex.bones = {vertex.bones[static_cast<std::size_t>(most - vertex.weights.begin())], 0, 0, 0};
+    vertex.weights = {255, 0, 0, 0};
+  }
+}
+
+/// Triangles that a level may have to keep its extent: those of the finer one.
+std::size_t max_triangles(std::size_t level) {
+  return kDetailLevels[level > 1 ? level - 1 : level].triangles;
+}
+
 class Bakery {
  public:
   Bakery(const fs::path& package, const std::vector<PersonSpec>& people,
@@ -207,10 +221,11 @@ class Bakery {
       if (level > 0) {
         const std::size_t carried = item ? item->indices.size() / 3 : 0;
         const std::size_t triangles = kDetailLevels[level].triangles - carried;
-        asset.levels.push_back(
-            hull.level(triangles, image, extent, bake_slack_m(level, dressed.stature_m),
-                       level > 1 ? kDetailLevels[level - 1].triangles - carried : triangles));
+        asset.levels.push_back(hull.level(triangles, image, extent,
+                                          bake_slack_m(level, dressed.stature_m),
+                                          max_triangles(level) - carried));
       }
+      if (level >= kDistantLevel) make_rigid(asset.levels.back());
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
     }
     baked.glb = encode_glb(asset);

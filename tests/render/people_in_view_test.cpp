@@ -99,8 +99,9 @@ struct Misfit {
 Misfit measure_misfit(const skinning::Population& people, const PersonInstance& person,
                       const PersonInView& truth) {
   const skinning::Character& character = people.characters[person.appearance.character];
-  const skinning::Palette& a = people.palette(person.appearance.character, person.pose.a);
-  const skinning::Palette& b = people.palette(person.appearance.character, person.pose.b);
+  const skinning::PoseBlend pose = drawn_pose(person.pose, truth.level);
+  const skinning::Palette& a = people.palette(person.appearance.character, pose.a);
+  const skinning::Palette& b = people.palette(person.appearance.character, pose.b);
   const Eigen::AngleAxisd back(-static_cast<double>(truth.yaw_rad), Eigen::Vector3d::UnitZ());
   const Eigen::AngleAxisd turned(static_cast<double>(person.yaw_rad), Eigen::Vector3d::UnitZ());
   const Eigen::Array3d half = 0.5 * truth.box_size.cast<double>();
@@ -116,8 +117,8 @@ Misfit measure_misfit(const skinning::Population& people, const PersonInstance& 
         Eigen::Vector3d model = Eigen::Vector3d::Zero();
         for (std::size_t k = 0; k < vertex.weights.size(); ++k) {
           const Eigen::Matrix<double, 3, 4> bone =
-              (1 - static_cast<double>(person.pose.blend)) * a[vertex.bones[k]].cast<double>() +
-              static_cast<double>(person.pose.blend) * b[vertex.bones[k]].cast<double>();
+              (1 - static_cast<double>(pose.blend)) * a[vertex.bones[k]].cast<double>() +
+              static_cast<double>(pose.blend) * b[vertex.bones[k]].cast<double>();
           const Eigen::Vector3d rest = Eigen::Vector3f(vertex.position.data()).cast<double>();
           model += vertex.weights[k] / 255.0 * (bone * rest.homogeneous());
         }

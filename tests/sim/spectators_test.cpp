@@ -43,7 +43,8 @@ world::Scenario load_square(const json& square) {
   return scenarios::load_scenario(folder.write("s.blueprint.json", square.dump()), "s");
 }
 
-world::Trace simulate_trace(const world::Scenario& scenario, double duration_s, std::uint64_t seed = 7) {
+world::Trace simulate_trace(const world::Scenario& scenario, double duration_s,
+                            std::uint64_t seed = 7) {
   RunSpec spec;
   spec.seed = seed;
   spec.duration_s = duration_s;
@@ -81,7 +82,7 @@ TEST(Spectators, FollowTheCrowdAndSitOnTheirSeats) {
 }
 
 TEST(Spectators, GetUpAndCheerTogetherNowAndThen) {
-  const world::Trace trace = simulate_trace(load_square(blueprint(200)), 32);
+  const world::Trace trace = simulate_trace(load_square(blueprint(190)), 32);
   std::size_t peak_step = 0;
   int most = 0;
   double first_s = -1;
@@ -98,12 +99,12 @@ TEST(Spectators, GetUpAndCheerTogetherNowAndThen) {
   }
   EXPECT_GE(first_s, 5);
   EXPECT_LE(first_s, 15 + 1.5);
-  EXPECT_NEAR(most, 0.72 * 200, 30);
+  EXPECT_NEAR(most, 0.72 * 190, 30);
   int cheering = 0;
   for (std::size_t agent = 3; agent < trace.agents(); ++agent) {
     cheering += state_at(trace, peak_step, agent) == "cheering" ? 1 : 0;
   }
-  EXPECT_NEAR(cheering, 0.49 * 200, 30);
+  EXPECT_NEAR(cheering, 0.49 * 190, 30);
   // They move with the posture, and no faster than people get up.
   for (std::size_t step = 1; step < trace.steps(); ++step) {
     for (std::size_t agent = 3; agent < trace.agents(); ++agent) {
@@ -162,15 +163,16 @@ TEST(Departures, ComeToTheFeetOneAfterTheOther) {
 }
 
 TEST(Spectators, LeaveAsTheSamePeople) {
-  const world::Scenario scenario = load_square(blueprint(30, 2));
-  const world::Trace trace = simulate_trace(scenario, 60);
-  ASSERT_EQ(trace.agents(), 33U);
+  const world::Scenario scenario = load_square(blueprint(60, 12));  // as some cheer
+  const world::Trace trace = simulate_trace(scenario, 80);
+  ASSERT_EQ(trace.agents(), 63U);
   const std::vector<world::Departure> all = world::departures(scenario.stands[0]);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::size_t agent = 3 + i;
     EXPECT_EQ(trace.header.role[agent], AgentRole::person);
     EXPECT_TRUE(trace.present(0, agent));
     std::size_t step = 0;
+    const auto at_foot = static_cast<std::size_t>(all[i].at_foot_s / 0.1);
     // On the stand until the foot, without jumps.
     while (step + 1 < trace.steps() && trace.time_s[step] < all[i].at_foot_s - 0.05) {
       ASSERT_TRUE(trace.present(step, agent));
@@ -179,7 +181,7 @@ TEST(Spectators, LeaveAsTheSamePeople) {
       ++step;
       ASSERT_LT((trace.position[trace.at(step, agent)] - trace.position[trace.at(step - 1, agent)])
                     .norm(),
-                0.15F);
+                step + 2 < at_foot ? 0.1F : 0.3F);  // at last the crowd takes a step of its own
     }
     const std::size_t later = std::min(step + 20, trace.steps() - 1);
     EXPECT_THAT(world::kStandStates,
@@ -190,7 +192,7 @@ TEST(Spectators, LeaveAsTheSamePeople) {
       std::count_if(trace.events.begin(), trace.events.end(), [](const world::TraceEvent& event) {
         return std::holds_alternative<world::AgentEscaped>(event.kind);
       });
-  EXPECT_GT(escapes, 15);
+  EXPECT_GT(escapes, 40);
 }
 
 TEST(Spectators, NeedFreeGroundToLeave) {

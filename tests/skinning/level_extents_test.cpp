@@ -92,7 +92,7 @@ TEST_F(LevelExtentsTest, AreThoseOfTheFinestLevels) {
         off_m[level] = std::max(off_m[level], off.cwiseAbs().maxCoeff());
       }
     }
-    for (std::size_t level = 0; level < kDrawnLevels; ++level) {
+    for (std::size_t level = 0; level < kDistantLevel; ++level) {
       // Alpha-tested hair of the finest level ends beyond what is seen of it. Others: poses that
       // levels are not fitted on, and straps, which coarser levels have not.
       const double slack_m =

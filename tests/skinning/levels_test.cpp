@@ -150,7 +150,7 @@ TEST_F(LevelsTest, HaveTheTrianglesTheyAreMeantToHave) {
       const std::size_t triangles = character.levels[level].indices.size() / 3;
       const std::size_t max_triangles = kDetailLevels[level].triangles;
       // Some need more to keep their extent, at most as many as the finer level may have.
-      const bool may_have_more = level > 1 && level < kDrawnLevels;
+      const bool may_have_more = level > 1;
       EXPECT_LE(triangles, kDetailLevels[may_have_more ? level - 1 : level].triangles)
           << character.name << " level " << level;
       sum[level] += triangles;
@@ -168,18 +168,23 @@ TEST_F(LevelsTest, HaveTheTrianglesTheyAreMeantToHave) {
 
 TEST_F(LevelsTest, NobodyNoticesTheSwitch) {
   for (std::size_t finer = 0; kDetailLevels[finer].above_px > 0; ++finer) {
+    // In the distance a pixel more or less along the outline is much, and the number of people is
+    // more.
+    const bool is_distant = finer + 1 >= kDistantLevel;
     std::vector<double> all;
     for (std::size_t i = 0; i < people_->characters.size(); ++i) {
       const std::vector<double> own = overlaps(people_->characters[i], i, finer);
-      EXPECT_GE(share_quantile(own, 0.5), 0.87)
+      EXPECT_GE(share_quantile(own, 0.5), is_distant ? 0.5 : 0.87)
           << people_->characters[i].name << ", " << people_->characters[i].wears;
       all.insert(all.end(), own.begin(), own.end());
     }
     const std::string switch_name = "from_" + std::to_string(finer);
     RecordProperty(switch_name + "_median", std::to_string(share_quantile(all, 0.5)));
     RecordProperty(switch_name + "_tenth", std::to_string(share_quantile(all, 0.1)));
-    EXPECT_GE(share_quantile(all, 0.5), 0.92) << "from level " << finer << " to the next";
-    EXPECT_GE(share_quantile(all, 0.1), 0.86) << "from level " << finer << " to the next";
+    EXPECT_GE(share_quantile(all, 0.5), is_distant ? 0.7 : 0.92)
+        << "from level " << finer << " to the next";
+    EXPECT_GE(share_quantile(all, 0.1), is_distant ? 0.5 : 0.86)
+        << "from level " << finer << " to the next";
   }
 }
 

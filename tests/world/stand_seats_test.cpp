@@ -165,8 +165,8 @@ json stand_json(const char* id, int rows, int count) {
 }
 
 TEST(StandFields, SpectatorsNeedSeats) {
-  EXPECT_TRUE(list_problems({stand_json("a", 12, 1056)}).empty());
-  const std::vector<Problem> problems = list_problems({stand_json("a", 12, 1057)});
+  EXPECT_TRUE(list_problems(json::array({stand_json("a", 12, 1056)})).empty());
+  const std::vector<Problem> problems = list_problems(json::array({stand_json("a", 12, 1057)}));
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/stands/0/spectators/count");
   EXPECT_EQ(problems[0].found, "1057");
@@ -184,7 +184,7 @@ TEST(StandFields, AllStandsTogetherHaveAtMost20000Spectators) {
 TEST(StandFields, VomitoriesNeedAislesBetweenBlocks) {
   json stand = stand_json("a", 12, 0);
   stand["vomitories"] = 4;
-  const std::vector<Problem> problems = list_problems({stand});
+  const std::vector<Problem> problems = list_problems(json::array({stand}));
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/stands/0/vomitories");
 }

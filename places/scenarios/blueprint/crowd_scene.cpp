@@ -139,6 +139,8 @@ double reached_s(const Vector2d& from, const Vector2d& to, const std::vector<Blo
 Node make_arrivals(const Source& source, double closed_s) {
   std::vector<Attribute> closed;
   if (std::isfinite(closed_s)) closed = {{"closed_from", significant_text(closed_s, 6)}};
+  // Spectators come down one by one.
+  if (source.of_stand) closed.push_back({"in_groups", "no"});
   if (source.table.empty()) {
     constexpr double kSecondsPerMinute = 60;
     Node rate =
