@@ -34,8 +34,7 @@ RULES = [
     *((f"python/{name}", 16) for name in ("LICENSE", "README.md", "pyproject.toml", "throng/py.typed")),
     ("web/package-lock.json", 128),
     *((f"web/*.{ending}", 32) for ending in ("ts", "tsx", "css", "js", "mjs", "json", "html", "svg", "txt")),
-    *((f"scenarios/*.{ending}", 64) for ending in ("json", "xml", "mtl")),
-    ("scenarios/bridge/river.obj", 16),
+    *((f"scenarios/*.{ending}", 64) for ending in ("json", "xml")),
     *((f"{folder}/*.{ending}", 32) for folder in ("bench", "scripts", "examples", "tests")
       for ending in ("py", "sh", "mjs", "jq", "yaml", "yml")),
     ("scripts/packages.txt", 8),
