@@ -56,7 +56,8 @@ struct GroundField {
   std::int64_t people = 0;  ///< on the ground, whether cameras see them or not
 };
 
-/// The fields of all people present on the ground, not on stands, at `time_s`; positions are interpolated between steps.
+/// The fields of all people present on the ground, not on stands, at `time_s`; positions are
+/// interpolated between steps.
 GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, double time_s);
 
 /// The bytes of a .npy file, float32, C order, shape (4, rows, columns): density, velocity x, y,
