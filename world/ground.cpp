@@ -40,11 +40,11 @@ struct HoleSide {
 
 /// Whether a side of a convex hole has all of a polygon outside of it.
 bool is_apart(const Polygon& polygon, const Polygon& hole) {
-  constexpr double kTouchM = 1e-6;
+  constexpr double kSharedEdgeM = 1e-6;
   for (std::size_t i = 0; i < hole.size(); ++i) {
     const HoleSide side(hole, i);
     if (std::all_of(polygon.begin(), polygon.end(),
-                    [&](const Vector2d& p) { return side.outside(p) > -kTouchM; })) {
+                    [&](const Vector2d& p) { return side.outside(p) > -kSharedEdgeM; })) {
       return true;
     }
   }
