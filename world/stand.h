@@ -1,4 +1,4 @@
-// Stands: tiers of seats for spectators, in straight rows.
+// Stands: tiers of seats for spectators, in straight rows; and the decks of stages.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,6 +33,8 @@ struct Stand {
   std::vector<Paint> colors;  ///< of the seats, the first of most; empty: blue with white
   std::string text;           ///< written with seats of the last color
   Spectators spectators;
+  /// A stage's deck has the places of its band instead of rows, with the height of their floor (m).
+  std::vector<Eigen::Vector3d> band = {};
 };
 
 }  // namespace throng::world

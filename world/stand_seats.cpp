@@ -1,5 +1,6 @@
 #include "world/stand_seats.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -60,7 +61,19 @@ double aisle_height_m(const Stand& stand, double back_m) {
   return stand.front_height_m + row * stand.row_rise_m;
 }
 
+/// Height below the nearest place of a band.
+std::optional<double> height_on_deck(const Stand& deck, const Vector2d& point) {
+  constexpr double kReachM = 1;
+  const auto off_m = [&](const Eigen::Vector3d& place) { return (place.head<2>() - point).norm(); };
+  const auto nearest =
+      std::min_element(deck.band.begin(), deck.band.end(),
+                       [&](const auto& a, const auto& b) { return off_m(a) < off_m(b); });
+  if (off_m(*nearest) > kReachM) return std::nullopt;
+  return nearest->z();
+}
+
 std::optional<double> height_on(const Stand& stand, const Vector2d& point) {
+  if (!stand.band.empty()) return height_on_deck(stand, point);
   const Vector2d at = frame_point(stand, point);
   if (at.x() < 0 || at.x() > length_m(stand) || at.y() < -kFrontStepsM || at.y() > depth_m(stand)) {
     return std::nullopt;
@@ -144,7 +157,38 @@ std::vector<Vomitory> vomitories(const Stand& stand) {
   return openings;
 }
 
+std::optional<Stand> stage_deck(const Prop& prop) {
+  // Voice, guitar, bass, keyboard, percussion and drums: in the prop's frame, with their floors.
+  static const std::vector<Eigen::Vector3d> kBand = {{0, -4.5, 1.6},    {-3.4, -3.5, 1.6},
+                                                     {3.4, -3.5, 1.6},  {6.1, 0.5, 1.95},
+                                                     {-6.2, 0.5, 1.95}, {0, 3.2, 2.115}};
+  if (prop.kind != PropKind::main_stage) return std::nullopt;
+  const Eigen::Rotation2Dd turn(prop.yaw_rad);
+  const Vector2d half = prop_type(prop.kind).half_size;
+  const auto at = [&](const Vector2d& place) -> Vector2d {
+    return prop.position + prop.scale * (turn * place);
+  };
+  Stand deck;
+  deck.from = at({half.x(), -half.y()});
+  deck.to = at({-half.x(), -half.y()});
+  deck.rows = 1;
+  deck.row_depth_m = 2 * half.y() * prop.scale;
+  for (const Eigen::Vector3d& place : kBand) {
+    const Vector2d ground = at(place.head<2>());
+    deck.band.emplace_back(ground.x(), ground.y(), prop.scale * place.z());
+  }
+  deck.spectators.count = static_cast<int>(deck.band.size());
+  return deck;
+}
+
 std::vector<Seat> seats(const Stand& stand) {
+  if (!stand.band.empty()) {
+    std::vector<Seat> places;
+    for (const Eigen::Vector3d& place : stand.band) {
+      places.push_back({0, 0, 0, place.head<2>(), place.z()});
+    }
+    return places;
+  }
   const Blocks blocks = block_layout(stand);
   const std::vector<Vomitory> openings = vomitories(stand);
   const int in_block = static_cast<int>(std::floor(blocks.length_m / kSeatSpacingM + kSeatSlackM));

@@ -6,9 +6,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "world/props.h"
 #include "world/stand.h"
 
 namespace throng::world {
@@ -75,14 +77,17 @@ std::size_t inner_aisles(const Stand& stand);
 /// The vomitories in the order of along_m: evenly spaced, moved into the nearest inner aisle. None
 /// in stands of four rows or fewer.
 std::vector<Vomitory> vomitories(const Stand& stand);
-/// All seats, by row and then along. None where vomitories are.
+/// The deck of a main stage, on which its band stands; nothing for other props.
+std::optional<Stand> stage_deck(const Prop& prop);
+/// All seats, by row and then along. None where vomitories are. The band's places on a deck.
 std::vector<Seat> seats(const Stand& stand);
 /// The seats of the spectators, a sample by their seed, as indices into `seats` in ascending order.
 /// A larger count contains every smaller one.
 std::vector<std::size_t> taken_seats(const Stand& stand, std::span<const Seat> seats);
 
 /// Height of the floor at a point (m): of the row's tread, of the slope of an aisle, which passes
-/// through the middle of every tread, or of the steps before an aisle; 0 outside of stands.
+/// through the middle of every tread, or of the steps before an aisle, or of the nearest of
+/// a band's places within 1 m; 0 outside of them.
 double elevation_m(std::span<const Stand> stands, const Eigen::Vector2d& point);
 
 }  // namespace throng::world

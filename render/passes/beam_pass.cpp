@@ -52,9 +52,9 @@ BeamPass::BeamPass(const world::Scenario& scenario, bool lamps_on, std::string_v
 void BeamPass::add_beams(double time_s) {
   constexpr double kLengthM = 34;
   constexpr double kLensM = 0.12;
-  constexpr double kSpread = 0.045;  // radius per meter
+  constexpr double kSpread = 0.022;  // radius per meter
   constexpr double kSwingRad = 0.32;
-  constexpr double kLight = 1.1e-3;
+  constexpr double kLight = 7e-4;
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     const ShapeBeam& beam = beams_[i];
     const auto phase = static_cast<double>(i);

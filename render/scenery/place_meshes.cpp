@@ -91,6 +91,7 @@ void add_all(std::vector<PropMesh> meshes, const PlacedProp& like, std::vector<P
 /// Adds stands, tracks, and water with its banks and bridges.
 void add_structures(const world::Scenario& scenario, PropIds& ids, std::vector<PlacedProp>& props) {
   for (const world::Stand& stand : scenario.stands) {
+    if (!stand.band.empty()) continue;
     add_all(make_stand(stand, ids.now(world::SemanticClass::stands)),
             {.mesh = {}, .is_detail = true}, props);
     ids.next();

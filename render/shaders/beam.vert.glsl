@@ -4,6 +4,7 @@ layout(location = 1) in vec4 to;     // end and radius
 layout(location = 2) in vec4 shine;  // color, and the share that the end keeps
 
 out vec2 on_strip;  // along, 0 to 1, and across, -1 to 1
+out float distance_m;  // from the camera
 flat out vec4 streak;
 
 void main() {
@@ -12,5 +13,6 @@ void main() {
   vec4 place = mix(from, to, on_strip.x);
   vec3 side = cross(to.xyz - from.xyz, place.xyz - view.center.xyz);
   side /= max(length(side), 1e-6);
+  distance_m = length(place.xyz - view.center.xyz);
   gl_Position = project(place.xyz + side * (place.w * on_strip.y));
 }

@@ -22,13 +22,26 @@ Spectator seat_person(const world::Stand& stand, const world::Seat& seat, std::u
   Spectator person;
   person.key = derive_seed(seed, Stream::spectators, kPeopleKeys + number);
   person.seat = seat.position.cast<float>();
-  person.ahead =
-      (world::standing_ahead_m(stand) * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)))
-          .cast<float>();
+  person.is_playing = !stand.band.empty();
+  if (!person.is_playing) {
+    person.ahead =
+        (world::standing_ahead_m(stand) * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)))
+            .cast<float>();
+  }
   Random random(person.key, Stream::spectators);
   const double turned_rad = random.uniform(-kFacingSpreadDeg, kFacingSpreadDeg) * kDegree;
   person.yaw_rad = static_cast<float>(geometry::wrapped_rad(yaw_rad + turned_rad));
   return person;
+}
+
+/// Musicians play for a while, then raise their arms: by turns of some seconds.
+Posture playing_posture(std::uint64_t key, double time_s) {
+  constexpr double kTurnS = 5;
+  constexpr double kRaisedShare = 0.35;
+  Random first(key, Stream::spectators, 0);
+  const auto turn = static_cast<std::uint64_t>(time_s / kTurnS + first.uniform());
+  return Random(key, Stream::spectators, 1 + turn).uniform() < kRaisedShare ? Posture::cheering
+                                                                            : Posture::standing;
 }
 
 }  // namespace
@@ -65,6 +78,9 @@ Spectators take_seats(const std::vector<world::Stand>& stands, std::uint64_t see
 }
 
 SpectatorNow spectator_at(const Spectator& person, const CheeringWaves& waves, double time_s) {
+  if (person.is_playing) {
+    return {person.seat, person.yaw_rad, playing_posture(person.key, time_s)};
+  }
   if (person.way && time_s >= person.rises_s) {
     const double walked_s = time_s - person.rises_s;
     if (walked_s < world::kGetUpS) {

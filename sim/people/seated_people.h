@@ -22,6 +22,7 @@ struct Spectator {
   float yaw_rad = 0;
   double place = 0;  ///< of the block among all blocks, 0 to 1
   double rises_s = std::numeric_limits<double>::infinity();  ///< to leave
+  bool is_playing = false;                                   ///< in a band: never sits
   std::optional<world::WayDown> way;                         ///< of those who leave
 };
 

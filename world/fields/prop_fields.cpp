@@ -18,6 +18,7 @@
 #include "world/clutter/clutter.h"
 #include "world/fields/document_values.h"
 #include "world/scenario.h"
+#include "world/stand_seats.h"
 
 namespace throng::world {
 
@@ -254,6 +255,7 @@ void check_props(Scenario& scenario, const json& list, const FieldLocation& plac
     if (const auto refusal = find_refusal(prop, scenario)) {
       item.below("position").reject(refusal->found, refusal->expected);
     }
+    if (std::optional<Stand> deck = stage_deck(prop)) scenario.stands.push_back(std::move(*deck));
   }
 }
 

@@ -58,6 +58,7 @@ void draw_ground(const Scenario& scenario, Sheet& sheet) {
 
 void draw_props(const Scenario& scenario, Sheet& sheet) {
   for (const world::Stand& stand : scenario.stands) {
+    if (!stand.band.empty()) continue;
     sheet.polygon(world::stand_outline(stand), colors::kBuilding, colors::kInk);
   }
   for (const world::Building& building : scenario.buildings) {
