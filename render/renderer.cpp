@@ -155,7 +155,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       multisample(quality.smooth_edges && wanted.multisample.value_or(!context.is_software())),
       color_apart(quality.supersampling > 1 || multisample),
       population(&people),
-      finder(people, quality),
+      finder(people, quality, wanted.bone_turns),
       environment(shown),
       disasters(scenario.disasters),
       daylight(render::daylight(environment)),
@@ -432,6 +432,7 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nei
                            options.whole_masks, seen);
   }
   check_gl("drawing a frame");
+  frame.people.reserve(seen.size());
   for (Seen& person : seen) {
     if (person.is_listed) frame.people.push_back(std::move(person.truth));
   }

@@ -44,6 +44,7 @@ struct RenderOptions {
   bool hazard_opacity = false;  ///< fill Frame::hazard_opacity
   bool semantic = false;        ///< fill Frame::surface
   bool whole_masks = false;     ///< fill PersonInView::whole_mask
+  bool bone_turns = false;      ///< fill PersonInView::bone_turns
   bool vehicles = false;        ///< include vehicles in Frame::objects
   /// Antialiasing by several samples per pixel (true) or by post-processing (false), for tests and
   /// comparisons. Default: by quality and device.

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -175,7 +176,8 @@ class CocoShardWriter::Files {
     for (const PersonLabel& label : labels.people) append_annotation_record(text_, image, label);
     for (const ObjectLabel& label : labels.objects) append_object_record(text_, image, label);
     annotations_.write(text_);
-    for (const PersonLabel& label : labels.people) add_track(image, label.agent);
+    auto after = tracks_.begin();
+    for (const PersonLabel& label : labels.people) after = add_track(image, label.agent, after);
     for (const ObjectLabel& label : labels.objects) add_object(image, label.object);
     ++counts_.images;
     counts_.annotations += labels.people.size() + labels.objects.size();
@@ -192,9 +194,15 @@ class CocoShardWriter::Files {
   }
 
  private:
-  void add_track(const CocoImage& image, std::uint32_t agent) {
-    const auto [track, is_new] = tracks_.try_emplace(track_id(image, agent));
-    if (is_new) append_track_record(track->second, image, agent);
+  using Tracks = std::map<std::int64_t, std::string>;
+
+  // `expected`: where the track probably is. Returns where the next one probably is: people come by
+  // agent.
+  Tracks::iterator add_track(const CocoImage& image, std::uint32_t agent,
+                             Tracks::iterator expected) {
+    const auto track = tracks_.try_emplace(expected, track_id(image, agent));
+    if (track->second.empty()) append_track_record(track->second, image, agent);
+    return std::next(track);
   }
 
   void add_object(const CocoImage& image, const render::ObjectInView& object) {
@@ -205,7 +213,7 @@ class CocoShardWriter::Files {
   fs::path folder_;
   Output images_;
   Output annotations_;
-  std::map<std::int64_t, std::string> tracks_;  // by id
+  Tracks tracks_;  // by id
   ShardCounts counts_;
   std::string text_;  // reused: the records of one frame
 };

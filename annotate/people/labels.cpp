@@ -212,6 +212,7 @@ FrameLabels label_people(const render::Frame& frame) {
   const RunsByPerson grouped = group(scan(frame), frame.people.size());
   ColumnRuns column_runs;
   FrameLabels labels{frame.index, frame.time_s, {}, {}, label_objects(frame)};
+  labels.people.reserve(frame.people.size());
   const Eigen::AlignedBox2d image(Eigen::Vector2d(0, 0),
                                   Eigen::Vector2d(frame.width(), frame.height()));
   for (std::size_t p = 0; p < frame.people.size(); ++p) {

@@ -78,8 +78,9 @@ struct PersonInView {
   Eigen::AlignedBox2d head_box = Eigen::AlignedBox2d();
   /// The posed joints, m, world.
   skinning::Keypoints keypoints = skinning::keypoints_at(Eigen::Vector3f::Zero());
-  /// The rotation of each bone from the rest pose, in which bodies face +x of the world.
-  std::array<Eigen::Quaternionf, skinning::kBoneCount> bone_turns = {};
+  /// The rotation of each bone from the rest pose, in which bodies face +x of the world; empty
+  /// unless requested by RenderOptions::bone_turns.
+  std::vector<Eigen::Quaternionf> bone_turns = {};
   skinning::Actions actions = {};  ///< actions to which the pose belongs
   /// The upright box around the body with carried items, rotated by yaw_rad: its center (m, world)
   /// and its size forward, sideways and up (m).

@@ -291,9 +291,10 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
     const skinning::Mesh& mesh = character.levels[person.level];
     const std::vector<skinning::Part> parts = select_parts(character, mesh, Share::body);
     const skinning::Palette palette = blended_palette(*population_, instance);
+    const Stance stance(instance);
     bool is_cut = false;
     const Eigen::AlignedBox2d box =
-        shown_box(mesh, parts, palette, instance, frame.camera, rows, is_cut);
+        shown_box(mesh, parts, palette, stance, frame.camera, rows, is_cut);
     const bool shows = visible.contains(id_of_agent(person.agent));
     // Parts beside the image count where another strip shows the person.
     const bool is_beside = !box.intersects(image);
@@ -304,7 +305,7 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
     // triangles of somebody but no corner of them.
     person.amodal_box = box;
     person.head_box = head_box(renderer_->head_points(instance.appearance.character, person.level),
-                               palette, instance, frame.camera);
+                               palette, stance, frame.camera);
     if (shows && (box.isEmpty() || is_beside || is_cut)) {
       person.amodal_box.extend(visible_box(frame, rows, person.agent));
     }

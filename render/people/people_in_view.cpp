@@ -36,8 +36,9 @@ camera::Camera widened(camera::Camera camera, int margin_px) {
 
 }  // namespace
 
-PeopleFinder::PeopleFinder(const skinning::Population& population, const QualitySettings& quality)
-    : population_(&population), quality_(quality) {
+PeopleFinder::PeopleFinder(const skinning::Population& population, const QualitySettings& quality,
+                           bool bone_turns)
+    : population_(&population), quality_(quality), bone_turns_(bone_turns) {
   landmarks_.reserve(population.characters.size());
   for (const skinning::Character& character : population.characters) {
     std::vector<BodyShape>& bodies = bodies_.emplace_back();
@@ -94,20 +95,21 @@ PersonDraw PeopleFinder::caster(std::uint32_t person, const PersonInstance& inst
   return {person, static_cast<std::uint32_t>(level), shading_of(level), 0};
 }
 
-void PeopleFinder::measure(const PersonInstance& person, const skinning::Palette& palette,
-                           PersonInView& truth) const {
+void PeopleFinder::measure(const PersonInstance& person, const Stance& stance,
+                           const skinning::Palette& palette, PersonInView& truth) const {
   const std::uint32_t character = person.appearance.character;
   const float stature_m = population_->characters[character].stature_m;
   truth.agent = person.agent;
-  truth.position = person.position.cast<double>();
-  truth.hips = posed_point(palette, person, skinning::Bone::hips, kHipsShare * stature_m);
-  truth.head = posed_point(palette, person, skinning::Bone::head, kHeadShare * stature_m);
+  truth.position = stance.position;
+  truth.hips = posed_point(palette, stance, skinning::Bone::hips, kHipsShare * stature_m);
+  truth.head = posed_point(palette, stance, skinning::Bone::head, kHeadShare * stature_m);
   truth.velocity = person.velocity.cast<double>();
   truth.yaw_rad = person.yaw_rad;
   truth.actions = person.actions;
   truth.stature_m = stature_m;
   measure_body(boxes_[character].box_of(person.pose, palette), landmarks_[character], palette,
-               person, truth);
+               stance, truth);
+  if (bone_turns_) measure_turns(palette, stance, truth);
 }
 
 /// Near people show the most texels; equals go by agent, so that nothing hangs on their order.
@@ -134,6 +136,7 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
   const Eigen::AlignedBox2d listed = listed_pixels(camera.intrinsics, margin_px, measured);
   std::vector<Seen> seen;
   seen.reserve(scene.people.size());
+  skinning::Palette blended;
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
     PersonInstance person = scene.people[i];
     check(person.appearance.character < population_->characters.size() &&
@@ -147,10 +150,14 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     const double height_px = camera.intrinsics.fy_px * character.stature_m / depth_m;
     const PersonDraw draw = draw_of(i, height_px, depth_m, character.levels.size());
     person.pose = drawn_pose(person.pose, draw.level);
-    const skinning::Palette palette = blended_palette(*population_, person);
+    if (person.pose.blend > 0) blended = blended_palette(*population_, person);
+    const skinning::Palette& palette =
+        person.pose.blend > 0 ? blended
+                              : population_->palette(person.appearance.character, person.pose.a);
+    const Stance stance(person);
     const auto box_of = [&](const std::vector<std::vector<BodyShape>>& shapes) {
       const BodyShape& shape = shapes[person.appearance.character][draw.level];
-      return silhouette_box(shape, palette, person, camera).intersection(measured.cast<double>());
+      return silhouette_box(shape, palette, stance, camera).intersection(measured.cast<double>());
     };
     const auto shows = [&](const Eigen::AlignedBox2d& box) {
       return !box.isEmpty() && box.intersects(listed);
@@ -162,12 +169,15 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     found.is_listed = shows(body);
     found.truth.amodal_box = body;
     found.truth.head_box =
-        head_box(head_points(person.appearance.character, draw.level), palette, person, camera);
+        head_box(head_points(person.appearance.character, draw.level), palette, stance, camera);
     found.truth.level = draw.level;
-    measure(person, palette, found.truth);
+    measure(person, stance, palette, found.truth);
   }
-  std::sort(seen.begin(), seen.end(),
-            [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });
+  const auto by_agent = [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; };
+  // Scenes list people in this order already, and large values are slow to move.
+  if (!std::is_sorted(seen.begin(), seen.end(), by_agent)) {
+    std::sort(seen.begin(), seen.end(), by_agent);
+  }
   texture_the_nearest(seen);
   return seen;
 }

@@ -25,6 +25,7 @@ inline constexpr double kPersonReach = 1.2;
 /// A person in view, with the ground truth measured so far.
 struct Seen {
   PersonDraw draw;
+  bool is_painted = false;  ///< by DistantPass
   /// False if only the umbrella is within the image: the person is rendered, but not listed in
   /// Frame::people.
   bool is_listed = true;
@@ -36,7 +37,9 @@ struct Seen {
 class PeopleFinder {
  public:
   /// `population` must outlive this object.
-  PeopleFinder(const skinning::Population& population, const QualitySettings& quality);
+  /// `bone_turns`: measures these of people, too.
+  PeopleFinder(const skinning::Population& population, const QualitySettings& quality,
+               bool bone_turns = false);
 
   /// The people whose box, or whose umbrella's box, intersects the image of a pinhole camera, or
   /// comes within `margin_px` of it and lies in `measured`, by agent, with their boxes, levels of
@@ -60,12 +63,13 @@ class PeopleFinder {
   Shading shading_of(std::size_t level) const;
   PersonDraw draw_of(std::uint32_t person, double height_px, double depth_m,
                      std::size_t levels) const;
-  void measure(const PersonInstance& person, const skinning::Palette& palette,
+  void measure(const PersonInstance& person, const Stance& stance, const skinning::Palette& palette,
                PersonInView& truth) const;
   void texture_the_nearest(std::vector<Seen>& seen) const;
 
   const skinning::Population* population_;
   QualitySettings quality_;
+  bool bone_turns_;
   std::vector<std::vector<BodyShape>> bodies_;  ///< [character][level]
   /// [character][level]; without points if there is none.
   std::vector<std::vector<BodyShape>> umbrellas_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -14,24 +15,6 @@
 namespace throng::render {
 
 namespace {
-
-Eigen::Matrix3d turn(float yaw_rad) {
-  return Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-}
-
-/// Model space to (u z, v z, z, height above the feet), where (u, v) are box coordinates and z is
-/// the depth.
-Eigen::Matrix4f image_from_model(const PersonInstance& person, const camera::Camera& camera) {
-  const camera::Intrinsics& k = camera.intrinsics;
-  Eigen::Matrix3d to_boxes;
-  to_boxes << k.fx_px, 0, k.cx_px + 0.5, 0, k.fy_px, k.cy_px + 0.5, 0, 0, 1;
-  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
-  m.topLeftCorner<3, 3>() = to_boxes * camera.pose.R * turn(person.yaw_rad);
-  m.topRightCorner<3, 1>() =
-      to_boxes * (camera.pose.R * person.position.cast<double>() + camera.pose.t);
-  m(3, 2) = 1;
-  return m.cast<float>();
-}
 
 SkinPoint skin_point(const skinning::Vertex& vertex) {
   SkinPoint point{{vertex.position[0], vertex.position[1], vertex.position[2], 1}, {}, {}, 0};
@@ -134,11 +117,28 @@ skinning::Palette blended_palette(const skinning::Population& population,
   return blended;
 }
 
-Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstance& person,
+Stance::Stance(const PersonInstance& person) : position(person.position.cast<double>()) {
+  const double sine = std::sin(static_cast<double>(person.yaw_rad));
+  const double cosine = std::cos(static_cast<double>(person.yaw_rad));
+  turn << cosine, -sine, 0, sine, cosine, 0, 0, 0, 1;
+}
+
+Eigen::Matrix4f image_from_model(const Stance& stance, const camera::Camera& camera) {
+  const camera::Intrinsics& k = camera.intrinsics;
+  Eigen::Matrix3d to_boxes;
+  to_boxes << k.fx_px, 0, k.cx_px + 0.5, 0, k.fy_px, k.cy_px + 0.5, 0, 0, 1;
+  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  m.topLeftCorner<3, 3>() = to_boxes * camera.pose.R * stance.turn;
+  m.topRightCorner<3, 1>() = to_boxes * (camera.pose.R * stance.position + camera.pose.t);
+  m(3, 2) = 1;
+  return m.cast<float>();
+}
+
+Eigen::Vector3d posed_point(const skinning::Palette& palette, const Stance& stance,
                             skinning::Bone bone, float height_m) {
   const Eigen::Vector4f standing(0, 0, height_m, 1);
   const Eigen::Vector3f posed = palette[static_cast<std::size_t>(bone)] * standing;
-  return person.position.cast<double>() + turn(person.yaw_rad) * posed.cast<double>();
+  return stance.position + stance.turn * posed.cast<double>();
 }
 
 std::vector<skinning::Part> select_parts(const skinning::Character& character,
@@ -172,18 +172,23 @@ BodyShape::BodyShape(const skinning::Mesh& of_mesh, std::vector<skinning::Part> 
 }
 
 void measure_body(const Eigen::AlignedBox3f& box, const skinning::Landmarks& landmarks,
-                  const skinning::Palette& palette, const PersonInstance& person,
-                  PersonInView& truth) {
-  const Eigen::Matrix3f to_world = turn(person.yaw_rad).cast<float>();
+                  const skinning::Palette& palette, const Stance& stance, PersonInView& truth) {
+  const Eigen::Matrix3f to_world = stance.turn.cast<float>();
+  const Eigen::Vector3f position = stance.position.cast<float>();
   truth.keypoints = skinning::posed_keypoints(landmarks, palette);
-  for (Eigen::Vector3f& point : truth.keypoints) point = person.position + to_world * point;
-  for (std::size_t i = 0; i < palette.size(); ++i) {
-    const Eigen::Matrix3f turned = palette[i].leftCols<3>();
-    // Blends of poses shrink bones by some thousandths.
-    truth.bone_turns[i] = Eigen::Quaternionf(Eigen::Matrix3f(to_world * turned)).normalized();
-  }
-  truth.box_middle = person.position + to_world * box.center();
+  for (Eigen::Vector3f& point : truth.keypoints) point = position + to_world * point;
+  truth.box_middle = position + to_world * box.center();
   truth.box_size = box.sizes();
+}
+
+void measure_turns(const skinning::Palette& palette, const Stance& stance, PersonInView& truth) {
+  const Eigen::Matrix3f to_world = stance.turn.cast<float>();
+  truth.bone_turns.reserve(palette.size());
+  for (const skinning::BoneMatrix& bone : palette) {
+    const Eigen::Matrix3f turned = bone.leftCols<3>();
+    // Blends of poses shrink bones by some thousandths.
+    truth.bone_turns.push_back(Eigen::Quaternionf(Eigen::Matrix3f(to_world * turned)).normalized());
+  }
 }
 
 Eigen::AlignedBox2i measured_pixels(const camera::Intrinsics& image) {
@@ -199,8 +204,8 @@ Eigen::AlignedBox2i measured_pixels(const camera::Intrinsics& image, const Rows&
 }
 
 Eigen::AlignedBox2d silhouette_box(const BodyShape& shape, const skinning::Palette& palette,
-                                   const PersonInstance& person, const camera::Camera& camera) {
-  Projector project(palette, image_from_model(person, camera));
+                                   const Stance& stance, const camera::Camera& camera) {
+  Projector project(palette, image_from_model(stance, camera));
   // Bounds of u, v and z at once; the fourth value is unused.
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Eigen::Array4f low = Eigen::Array4f::Constant(kInfinity);
@@ -255,8 +260,8 @@ Eigen::AlignedBox2d limited(const Eigen::AlignedBox2d& box, const camera::Intrin
 }  // namespace
 
 Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Palette& palette,
-                             const PersonInstance& person, const camera::Camera& camera) {
-  Projector project(palette, image_from_model(person, viewing_camera(camera)));
+                             const Stance& stance, const camera::Camera& camera) {
+  Projector project(palette, image_from_model(stance, viewing_camera(camera)));
   Eigen::AlignedBox2d box;
   for (const SkinPoint& point : head) {
     if (const auto place = shown_place(camera.intrinsics, project(point))) box.extend(*place);
@@ -265,14 +270,14 @@ Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Pa
 }
 
 Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
-                              const skinning::Palette& palette, const PersonInstance& person,
+                              const skinning::Palette& palette, const Stance& stance,
                               const camera::Camera& camera, const Rows& rows, bool& is_cut) {
   const camera::Intrinsics& k = camera.intrinsics;
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   const double top = rows.first == 0 ? -kEverywhere : rows.first;
   const double bottom = rows.end == k.height ? kEverywhere : rows.end;
   const std::vector<Eigen::Vector4f> places = projected_vertices(
-      mesh, Projector(palette, image_from_model(person, viewing_camera(camera))));
+      mesh, Projector(palette, image_from_model(stance, viewing_camera(camera))));
   std::vector<std::optional<Eigen::Vector2d>> shown;
   shown.reserve(places.size());
   for (const Eigen::Vector4f& place : places) shown.push_back(shown_place(k, place));

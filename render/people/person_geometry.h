@@ -33,9 +33,17 @@ skinning::PoseBlend drawn_pose(const skinning::PoseBlend& pose, std::size_t leve
 skinning::Palette blended_palette(const skinning::Population& population,
                                   const PersonInstance& person);
 
+/// A place to stand, and a turn about the vertical.
+struct Stance {
+  explicit Stance(const PersonInstance& person);
+
+  Eigen::Vector3d position;  ///< m
+  Eigen::Matrix3d turn;      ///< model axes to the world's
+};
+
 /// Position (m, world) in the pose of a point that moves with `bone` and is on the body's axis at
 /// `height_m` in the standing rest pose.
-Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstance& person,
+Eigen::Vector3d posed_point(const skinning::Palette& palette, const Stance& stance,
                             skinning::Bone bone, float height_m);
 
 /// A point of a mesh with its skinning weights.
@@ -64,13 +72,18 @@ struct BodyShape {
 
 /// Sets keypoints and upright box of `truth`; `box` is the box in the model's axes (m).
 void measure_body(const Eigen::AlignedBox3f& box, const skinning::Landmarks& landmarks,
-                  const skinning::Palette& palette, const PersonInstance& person,
-                  PersonInView& truth);
+                  const skinning::Palette& palette, const Stance& stance, PersonInView& truth);
+/// Sets the turns of the bones.
+void measure_turns(const skinning::Palette& palette, const Stance& stance, PersonInView& truth);
+
+/// Model space to (u z, v z, z, height above the feet), where (u, v) are box coordinates of a
+/// pinhole camera and z is the depth.
+Eigen::Matrix4f image_from_model(const Stance& stance, const camera::Camera& camera);
 
 /// Bounds in box coordinates of a mesh in the image of a pinhole camera, without the parts behind
 /// the near plane; empty if everything is behind it.
 Eigen::AlignedBox2d silhouette_box(const BodyShape& shape, const skinning::Palette& palette,
-                                   const PersonInstance& person, const camera::Camera& camera);
+                                   const Stance& stance, const camera::Camera& camera);
 
 /// Rows [first, end) of an image. Rows at its upper and lower border extend beyond it.
 struct Rows {
@@ -89,13 +102,13 @@ Eigen::AlignedBox2i measured_pixels(const camera::Intrinsics& image, const Rows&
 /// Bounds in box coordinates of a person's head points in the image of a camera with any lens,
 /// limited to measured_pixels(). Points outside of the camera's view are ignored; empty if all are.
 Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Palette& palette,
-                             const PersonInstance& person, const camera::Camera& camera);
+                             const Stance& stance, const camera::Camera& camera);
 
 /// Bounds in box coordinates of the parts of a mesh in these rows of the image of a camera with any
 /// lens, from vertices and edges within the lens model's valid range; limited to measured_pixels().
 /// Empty if there are none. Sets `is_cut` if some vertices have no position in the image.
 Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
-                              const skinning::Palette& palette, const PersonInstance& person,
+                              const skinning::Palette& palette, const Stance& stance,
                               const camera::Camera& camera, const Rows& rows, bool& is_cut);
 
 }  // namespace throng::render

@@ -32,6 +32,7 @@ constexpr std::array kKinds = {
                     .help = "33 joints of each person, turns of 21 bones and gaze, with coco",
                     .file = kCocoPath,
                     .content = "joints, joints_3d, bone_turns, gaze",
+                    .needs = {.bone_turns = true},
                     .in_coco = true},
     GroundTruthKind{.kind = GroundTruth::actions,
                     .name = "actions",
@@ -238,6 +239,7 @@ RenderNeeds render_needs(std::span<const std::string> names) {
     needs.parts |= kind->needs.parts;
     needs.semantic |= kind->needs.semantic;
     needs.whole_masks |= kind->needs.whole_masks;
+    needs.bone_turns |= kind->needs.bone_turns;
     needs.vehicles |= kind->needs.vehicles;
   }
   return needs;

@@ -67,6 +67,7 @@ struct RenderNeeds {
   bool hazard_opacity = false;
   bool parts = false;
   bool whole_masks = false;
+  bool bone_turns = false;
   bool vehicles = false;
   bool semantic = false;
 };

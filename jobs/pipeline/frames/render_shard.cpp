@@ -204,6 +204,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   options.parts = needs.parts;
   options.semantic = needs.semantic;
   options.whole_masks = needs.whole_masks;
+  options.bone_turns = needs.bone_turns;
   options.vehicles = needs.vehicles;
   options.light_folder = folder.path() / "work" / "light";
   options.clock = clock ? &*clock : nullptr;

@@ -164,7 +164,7 @@ TEST(Joints, SayWhetherTheOwnBodyHidesThem) {
 }
 
 TEST(Joints, OfARecordFaceWhereTheBodyDoes) {
-  render::Stage stage(render::open_ground());
+  render::Stage stage(render::open_ground(), {}, {.bone_turns = true});
   const double yaw_rad = 0.7;
   const render::Frame frame =
       stage.draw(render::camera_at({6, 0, 1.2}, 180, 0), {stage.standing(0, 0, 0, yaw_rad)});

@@ -92,6 +92,8 @@ TEST(GroundTruthTables, TheRendererIsAskedForTheBuffersOfTheKinds) {
   EXPECT_TRUE(needs({"coco", "normals"}).normals);
   EXPECT_TRUE(needs({"flow"}).flow);
   EXPECT_TRUE(needs({"coco", "amodal"}).whole_masks);
+  EXPECT_TRUE(needs({"coco", "skeletons"}).bone_turns);
+  EXPECT_FALSE(needs({"coco", "keypoints"}).bone_turns);
   EXPECT_FALSE(needs({"amodal"}).whole_masks) << "whole masks are part of the records";
 }
 
