@@ -22,6 +22,7 @@
 #include "render/passes/smoke_pass.h"
 #include "render/passes/smooth_edges.h"
 #include "render/passes/still_surfaces.h"
+#include "render/people/distant_pass.h"
 #include "render/people/people_in_view.h"
 #include "render/people/people_pass.h"
 #include "render/scenery/lighting.h"
@@ -39,7 +40,9 @@ namespace {
 std::vector<PersonDraw> make_draws(const std::vector<Seen>& seen) {
   std::vector<PersonDraw> draws;
   draws.reserve(seen.size());
-  for (const Seen& person : seen) draws.push_back(person.draw);
+  for (const Seen& person : seen) {
+    if (!person.is_painted) draws.push_back(person.draw);
+  }
   return draws;
 }
 
@@ -55,6 +58,13 @@ camera::Camera scaled(const camera::Camera& camera, int times) {
   k.cx_px = (k.cx_px + 0.5) * times - 0.5;
   k.cy_px = (k.cy_px + 0.5) * times - 0.5;
   return fine;
+}
+
+/// A device's own rasterizer is faster than DistantPass unless it is software. Surfaces are drawn
+/// again, where they have exactly the depth of the first time.
+bool paints_distant(const RenderOptions& options, bool is_software) {
+  return is_software &&
+         !(options.normals || options.parts || options.flow || options.flow_backward);
 }
 
 /// Metering needs the shadows of whole buildings only.
@@ -125,6 +135,7 @@ struct Renderer::State {
   AirframePass airframes;
   ContactPass contacts;
   PeoplePass people_pass;
+  std::optional<DistantPass> distant;
   SkyPass sky;
   SmokePass smoke;
   BeamPass beams;
@@ -183,6 +194,10 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
   glDepthFunc(GL_GREATER);
   meshes = {};
   if (options.vehicles) vehicles = list_vehicles(scenario);
+  if (!color_apart && paints_distant(options, context.is_software())) {
+    distant.emplace(people, people_pass.meshes(), air, quality.shadow_texels > 0,
+                    light_words(environment, scenario.disasters));
+  }
   check_gl("setting up");
 }
 
@@ -247,6 +262,11 @@ void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camer
   draw_smooth(scene, camera, seen, frame);
   resize(target, k.width, k.height);
   using Purpose = PeoplePass::Purpose;
+  if (distant) {
+    distant->paint(scene, camera, daylight.direction.cast<float>(),
+                   {choice.truth, choice.weights, options.whole_masks}, seen);
+    lap("paint");
+  }
   if (choice.truth) coverage.prepare(camera, seen);
   target->begin(Eigen::Vector3f::Zero());
   if (choice.truth && color_apart) {
@@ -291,6 +311,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
                                 Target* kept) {
   upload_view(camera);
   // People first: they are many small triangles, and hide ground that then costs nothing.
+  if (distant && !seen.empty()) distant->draw();
   people_pass.draw(purpose, scene.people, make_draws(seen));
   props.draw(clip_planes(camera), scene.time_s);
   airframes.draw(scene.drones, camera);

@@ -10,6 +10,8 @@ extern const std::string_view shader_view;
 extern const std::string_view shader_light;
 extern const std::string_view shader_noise;
 extern const std::string_view shader_person_vert;
+extern const std::string_view shader_distant_vert;
+extern const std::string_view shader_distant_frag;
 extern const std::string_view shader_person_frag;
 extern const std::string_view shader_person_surface_frag;
 extern const std::string_view shader_coverage_frag;

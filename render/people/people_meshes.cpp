@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "render/people/corner_colors.h"
+#include "skinning/levels.h"
 
 namespace throng::render {
 
@@ -95,6 +96,14 @@ class Packer {
       range.count = static_cast<std::uint32_t>(indices_.size()) - range.first;
     }
     return level;
+  }
+
+  /// A copy of what was added last.
+  PackedMesh copy_of(const PeopleLevel& level) const {
+    const auto first = indices_.begin() + level.opaque.first;
+    return {{vertices_.begin() + level.first_vertex, vertices_.end()},
+            {first, first + level.opaque.count},
+            level.alpha_tested.count > 0};
   }
 
   Buffer vertices() const { return make_buffer(vertices_); }
@@ -187,12 +196,16 @@ PeopleMeshes people_meshes(const skinning::Population& population, const Packing
   for (const skinning::Character& character : population.characters) {
     std::vector<PeopleLevel>& textured = meshes.textured.emplace_back();
     std::vector<PeopleLevel>& by_corners = meshes.by_corners.emplace_back();
+    PackedMesh& distant = meshes.distant.emplace_back();
     for (std::size_t level = 0; level < character.levels.size(); ++level) {
       const skinning::Mesh& mesh = character.levels[level];
       textured.push_back(level < packing.textured_below ? packer.add(character, mesh, false)
                                                         : PeopleLevel{});
-      by_corners.push_back(level >= packing.corners_from ? packer.add(character, mesh, true)
-                                                         : PeopleLevel{});
+      const bool has_corners = level >= packing.corners_from;
+      by_corners.push_back(has_corners ? packer.add(character, mesh, true) : PeopleLevel{});
+      if (has_corners && level == skinning::kDistantLevel) {
+        distant = packer.copy_of(by_corners.back());
+      }
     }
   }
   meshes.vertices = packer.vertices();

@@ -37,10 +37,19 @@ struct Packing {
   std::size_t corners_from = 0;    ///< levels from this index on have a color per vertex
 };
 
+/// A level of detail as it is packed.
+struct PackedMesh {
+  std::vector<DeviceVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< of opaque parts, three to a triangle
+  bool has_transparent_parts = false;
+};
+
 /// The meshes of all characters on the device.
 struct PeopleMeshes {
   Buffer vertices;
   Buffer indices;
+  /// [character] the level skinning::kDistantLevel by corners; empty if it is not packed.
+  std::vector<PackedMesh> distant;
   /// [character][level]; levels that are not packed are empty. In `by_corners`, opaque vertices
   /// that differ only in texture coordinates are merged.
   std::vector<std::vector<PeopleLevel>> textured;

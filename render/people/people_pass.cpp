@@ -126,9 +126,6 @@ std::uint64_t largest_palettes() {
   return static_cast<std::uint64_t>(texels) * sizeof(DeviceBone);
 }
 
-/// From a person's feet to where its light is taken.
-const Eigen::Vector3f kHips(0, 0, 1);
-
 /// A texture's look-ups read whole texels, which a software driver does four times as fast as it
 /// reads a storage buffer.
 Texture make_buffer_texture(GLenum format, const Buffer& buffer) {
@@ -245,7 +242,7 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
          draw.shift,
          {std::bit_cast<std::uint32_t>(std::cos(person.yaw_rad)),
           std::bit_cast<std::uint32_t>(std::sin(person.yaw_rad))},
-         is_lit ? packed(air_.at(person.position + kHips)) : std::array<std::uint32_t, 6>{}});
+         is_lit ? packed(air_.at(light_point(person.position))) : std::array<std::uint32_t, 6>{}});
   }
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
                     instances.data(), GL_STREAM_DRAW);

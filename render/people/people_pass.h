@@ -36,6 +36,11 @@ struct PersonDraw {
   static constexpr std::array<std::int32_t, 2> kNowhere = {1 << 24, 1 << 24};
 };
 
+/// The place at which a person's light is taken: the hips of somebody who stands here.
+inline Eigen::Vector3f light_point(const Eigen::Vector3f& feet) {
+  return feet + Eigen::Vector3f::UnitZ();
+}
+
 /// Owns the meshes, palettes and textures of all characters on the device. Draws expect the View
 /// and Light blocks, the shadow map and the target to be bound.
 class PeoplePass {
@@ -45,6 +50,8 @@ class PeoplePass {
   /// writes no colors.
   PeoplePass(const skinning::Population& population, const ProbeGrid& air,
              const QualitySettings& quality, std::string_view words, bool color_apart);
+
+  const PeopleMeshes& meshes() const { return meshes_; }
 
   /// truth also writes the people's whole silhouettes, visible or occluded, to the
   /// atlas that is bound to image unit 0 (render/truth/silhouettes.h).

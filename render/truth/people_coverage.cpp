@@ -55,7 +55,7 @@ void PeopleCoverage::prepare(const camera::Camera& camera, std::vector<Seen>& se
   };
   std::vector<Room> rooms;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!seen[i].is_listed) continue;
+    if (!seen[i].is_listed || seen[i].is_painted) continue;
     const Eigen::AlignedBox2i pixels = pixel_box(seen[i].truth.amodal_box);
     if (image.contains(pixels)) rooms.push_back({i, pixels});
   }
@@ -80,7 +80,7 @@ void PeopleCoverage::measure(PeoplePass& pass, const Scene& scene, const Frame& 
   std::vector<std::size_t> requested;
   std::vector<CoverageRequest> requests;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!seen[i].is_listed) continue;
+    if (!seen[i].is_listed || seen[i].is_painted) continue;
     PersonInView& truth = seen[i].truth;
     if (seen[i].tile) {
       truth.amodal_area_px = silhouettes_.count(*seen[i].tile, weights);
