@@ -31,7 +31,7 @@ TEST_P(ShapeFile, StandsUprightOnTheGroundThatItsKindCovers) {
   const double kFootM = type.semantic_class == world::SemanticClass::boat ? 0.6 : 0.03;
   // Of one that is as large as a house there are few.
   const bool is_large = type.half_size.prod() > 25;
-  const std::size_t kMaxTriangles = is_large ? 12'000 : 2500;
+  const std::size_t kMaxTriangles = is_large ? 12'000 : 2700;
   const std::size_t kMaxFarTriangles = is_large ? 3200 : 1100;
   std::set<std::size_t> sizes;
   for (std::uint32_t look = 0; look < kLooks; ++look) {
