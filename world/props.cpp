@@ -92,7 +92,7 @@ const std::array<PropType, kPropKinds>& prop_types() {
       {"crowd_barrier", {1, 0.6}, 1.25, C::barrier},
       {"camera_crane", {4, 0.9}, 5.5, C::stage},
       {"drink_stand", {2, 1.5}, 3.3, C::stall},
-      {"beach_flag", {0.25, 0.25}, 4.4, C::flagpole, Foot::disc},
+      {"beach_flag", {0.82, 0.25}, 4.4, C::flagpole},
       {"goal", {1.25, 3.75}, 2.5, C::sports, Foot::posts},
       {"team_bench", {4, 0.9}, 2.5, C::bench},
       {"advertising_board", {3, 0.25}, 1.05, C::sign},
@@ -111,8 +111,8 @@ const std::array<PropType, kPropKinds>& prop_types() {
       {"taxi", {2.3, 0.9}, 1.8, C::car},
       {"platform_shelter", {2.1, 0.85}, 2.8, C::street_furniture},
       {"rowboat", {2.1, 0.8}, 1, C::boat},
-      {"barge", {9.5, 2.4}, 4.2, C::boat},
-      {"pontoon", {4, 1.3}, 3.4, C::boat},
+      {"barge", {9.5, 2.4}, 4.4, C::boat},
+      {"pontoon", {4, 1.4}, 3.4, C::boat},
   }};
   return types;
 }

@@ -236,8 +236,29 @@ class Scatterer {
     }
     const std::string_view material = map_.material_at(decal.middle);
     if ((ground_bit(material) & rule_->on) == 0 || map_.wall_m(decal.middle) < 0) return;
+    if (lies_on_water(decal) || lies_on_pitch(decal.middle)) return;
     if (is_solid(decal.kind) && !is_free(decal, material)) return;
     decals_.push_back(decal);
+  }
+
+  /// Whether any part of it would hover over water.
+  bool lies_on_water(const GroundDecal& decal) const {
+    if (!has_water_) return false;
+    const auto corners = geometry::turned_rectangle(decal.middle, decal.half_size, decal.along);
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](const Vector2d& corner) { return map_.material_at(corner) == "water"; });
+  }
+
+  /// Pitches are well kept.
+  bool lies_on_pitch(const Vector2d& point) const {
+    return std::any_of(
+        scenario_.markings.begin(), scenario_.markings.end(), [&](const world::Marking& marking) {
+          if (marking.kind != "pitch") return false;
+          const Vector2d along = (marking.to - marking.from).normalized();
+          const Vector2d off = point - 0.5 * (marking.from + marking.to);
+          return std::abs(off.dot(along)) < 0.5 * (marking.to - marking.from).norm() &&
+                 std::abs(geometry::cross(along, off)) < 0.5 * marking.width_m;
+        });
   }
 
   bool is_free(const GroundDecal& decal, std::string_view material) const {
@@ -258,6 +279,7 @@ class Scatterer {
 
   const world::Scenario& scenario_;
   GroundMap map_;
+  bool has_water_ = !world::water_parts(scenario_.areas).empty();
   std::vector<Field> fields_;
   std::vector<GroundSegment> kerbs_;
   std::vector<GroundSegment> walls_;

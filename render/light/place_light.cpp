@@ -264,7 +264,7 @@ void set_probes(std::span<const float> values, ProbeGrid& probes) {
 }
 
 /// Sets the light of a mesh's vertices; those within buildings take that of their triangles' other
-/// corners.
+/// corners, or a share of the light in the open.
 template <typename Vertex>
 void set_light(std::span<const float> values, float exposure, const LightField& open,
                const std::vector<std::uint32_t>& used, const std::vector<std::uint32_t>& indices,
@@ -299,6 +299,13 @@ void set_light(std::span<const float> values, float exposure, const LightField& 
       std::copy_n(mean.data(), 3, vertices[vertex].light.data());
       known[vertex] = true;
     }
+  }
+  // A triangle may show between corners that all lie within others: it is not black.
+  constexpr float kHidden = 0.35F;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (known[i]) continue;
+    const Array3f light = kHidden * open.received(vertex_normal(vertices[i]));
+    std::copy_n(light.data(), 3, vertices[i].light.data());
   }
 }
 

@@ -120,7 +120,7 @@ void add_structures(const world::Scenario& scenario, PropIds& ids, std::vector<P
   }
 }
 
-/// Where no houses stand beyond the ground: on meshes, stands and water.
+/// The land beyond the ground on which no houses stand: below meshes, stands and water.
 std::vector<Eigen::AlignedBox2d> taken_land(const world::Scenario& scenario,
                                             std::vector<Eigen::AlignedBox2d> taken) {
   const auto take = [&](const auto& corners) {

@@ -84,10 +84,9 @@ class GroundGrid {
       const double x1 = xs_[column + 1];
       const double y0 = ys_[row];
       const double y1 = ys_[row + 1];
-      const auto parts = world::without({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, holes_);
-      const bool is_whole = parts.size() == 1 && parts.front().size() == 4 &&
-                            parts.front().front() == Eigen::Vector2d(x0, y0) &&
-                            parts.front()[2] == Eigen::Vector2d(x1, y1);
+      const std::vector<Eigen::Vector2d> cell = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+      const auto parts = world::without(cell, holes_);
+      const bool is_whole = parts.size() == 1 && parts.front() == cell;
       if (!is_whole) {
         for (const auto& part : parts) add_fan(part);
         return;

@@ -31,7 +31,7 @@ class SeatWriting {
   explicit SeatWriting(const world::Stand& stand) : stand_(stand) {
     if (stand.text.empty() || stand.rows < kMinRows) return;
     const double fits = world::length_m(stand) / world::kSeatSpacingM;
-    columns_ = static_cast<std::size_t>(std::max(1.0, fits));
+    columns_ = static_cast<std::size_t>(std::max(1.0, fits / kStretch));
     rows_ = static_cast<std::size_t>(stand.rows - 2 * kMarginRows);
     letters_ = drawing::draw_word(stand.text, static_cast<int>(columns_), static_cast<int>(rows_));
   }
@@ -49,6 +49,7 @@ class SeatWriting {
   }
 
  private:
+  static constexpr double kStretch = 1.7;  ///< letters are as wide as the slope makes them high
   static constexpr int kMinRows = 12;
   static constexpr int kMarginRows = 3;
   const world::Stand& stand_;
@@ -199,11 +200,16 @@ class StandBuilder {
       if (is_open(row)) continue;
       const double front = row * stand_.row_depth_m;
       const double z = floor_m(row);
-      level(a, b, front + 0.02, front + stand_.row_depth_m - 0.02, z + 0.012, kStandStair);
       const double rise = row + 1 < stand_.rows ? stand_.row_rise_m : 0;
       const double back = front + stand_.row_depth_m;
-      if (rise > 0.2) {
-        box(a, b, back - 0.5 * stand_.row_depth_m, back - 0.005, z, z + 0.5 * rise, kStandStair);
+      const bool has_half_step = rise > 0.2;
+      const double step = has_half_step ? back - 0.5 * stand_.row_depth_m : back - 0.02;
+      level(a, b, front + 0.02, step - 0.02, z + 0.012, kStandStair);
+      if (has_half_step) {
+        facing_field(a, b, step, z, z + 0.5 * rise, 0.8 * kStandStair);
+        level(a, b, step, back - 0.02, z + 0.5 * rise, kStandStair);
+        for (const double x : {a, b})
+          add_step_side(x, x > aisle.along_m, step, back, z, 0.5 * rise);
       }
       PropBuilder& builder = at(aisle.along_m, front);
       builder.is_near = true;
@@ -227,6 +233,14 @@ class StandBuilder {
         box(a + 0.1, b - 0.1, -reach, 0, 0, top, kStandStair);
       }
     }
+  }
+
+  /// The side of a half step.
+  void add_step_side(double x, bool is_right, double front, double back, double z, double rise) {
+    std::array<Vector3d, 4> side = {Vector3d(x, -back, z), Vector3d(x, -front, z),
+                                    Vector3d(x, -front, z + rise), Vector3d(x, -back, z + rise)};
+    if (!is_right) side = {side[1], side[0], side[3], side[2]};
+    at(x, front).quad(side, 0.8 * kStandStair, Finish::matt);
   }
 
   /// A dark passage with walls and rails where rows are left out.
@@ -333,7 +347,8 @@ class StandBuilder {
       const double a = i * bay;
       const double b = a + bay;
       facing_field(a, b, 0, 0, stand_.front_height_m, 1.05 * kStandConcrete);
-      facing_away(a, b, depth_, 0, crest, 0.9 * kStandConcrete);
+      // Panels end beside the columns, within which no light is known.
+      facing_away(a + 0.22, b - 0.22, depth_, 0, crest, 0.9 * kStandConcrete);
       facing_field(a, b, depth_ - 0.15, top_m(), crest, 0.9 * kStandConcrete);
       level(a, b, depth_ - 0.15, depth_, crest, kStandConcrete);
       box(a - 0.2, a + 0.2, depth_, depth_ + 0.3, 0, crest - 0.6, kStandConcrete);

@@ -190,7 +190,7 @@ void add_arch(PropBuilder& builder, double x0, double x1, double half_m, double 
     const Vector2d top(-kBridgeSlabM, -kBridgeSlabM);
     for (const double y : {-half_m, half_m}) {
       add_side(builder, y, a, b, ring, top, random.uniform(0.9, 1.06) * kAshlar);
-      add_side(builder, y * (1 + 0.04 / half_m), a, b, low, ring,
+      add_side(builder, y * (1 + 0.015 / half_m), a, b, low, ring,
                random.uniform(1.05, 1.3) * kAshlar);
     }
     builder.quad({Vector3d(a, half_m, low.x()), Vector3d(b, half_m, low.y()),
@@ -254,7 +254,7 @@ PropMesh bridge_below(const world::GroundArea& deck, const world::GroundArea& wa
   Random random(static_cast<std::uint64_t>(10 * length), Stream::environment, 0xB21D6E);
   // Edge beams with a cornice, a little wider than the deck.
   for (const double side : {-1.0, 1.0}) {
-    const double y = side * (half + 0.1);
+    const double y = side * (half + 0.05);
     builder.box({0, std::min(y, y - 0.3 * side), -kBridgeSlabM},
                 {length, std::max(y, y - 0.3 * side), -0.012}, 1.15 * kAshlar);
   }

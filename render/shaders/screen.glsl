@@ -1,5 +1,5 @@
-// The moving image of a screen beside a stage: the picture of a camera that shows the band; `p` counts
-// in heights of the screen.
+// The moving image of a screen beside a stage, as a camera that shows the band sends it; `p` counts in
+// heights of the screen.
 
 float ellipse(vec2 p, vec2 radii) { return smoothstep(1.12, 0.88, length(p / radii)); }
 

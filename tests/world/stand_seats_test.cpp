@@ -189,5 +189,26 @@ TEST(StandFields, VomitoriesNeedAislesBetweenBlocks) {
   EXPECT_EQ(problems[0].where, "/stands/0/vomitories");
 }
 
+TEST(StageDecks, CarryABandThatLooksAtTheAudience) {
+  Prop prop;
+  prop.kind = PropKind::bench;
+  EXPECT_FALSE(stage_deck(prop).has_value());
+  prop.kind = PropKind::main_stage;
+  prop.position = {100, 50};
+  prop.yaw_rad = std::numbers::pi / 2;  // its front, to the right, looks to +x
+  const std::optional<Stand> deck = stage_deck(prop);
+  ASSERT_TRUE(deck.has_value());
+  EXPECT_NEAR(facing_rad(*deck), 0, 1e-9);
+  const std::vector<Seat> places = seats(*deck);
+  ASSERT_GE(places.size(), 4U);
+  EXPECT_EQ(static_cast<std::size_t>(deck->spectators.count), places.size());
+  for (const Seat& place : places) {
+    EXPECT_LT(distance_to(prop, place.position), 1e-9);
+    EXPECT_DOUBLE_EQ(elevation_m({&*deck, 1}, place.position), place.height_m);
+    EXPECT_GE(place.height_m, 1.6);
+  }
+  EXPECT_EQ(elevation_m({&*deck, 1}, {130, 50}), 0);
+}
+
 }  // namespace
 }  // namespace throng::world

@@ -29,7 +29,20 @@ export interface Kind {
 const kDoing: FieldSpec = { key: "doing", label: "Doing", type: "choice", choices: ["stroll", "wait", "cross", "leave"], isRequired: true };
 const number = (key: string, label: string, unit = "", usual = ""): FieldSpec => ({ key, label, type: "number", unit, usual });
 const kId: FieldSpec = { key: "id", label: "Id", type: "text", isRequired: true };
-const kFacades = ["plaster", "brick", "historic", "modern", "concrete", "warehouse", "glass", "blank", "hedge", "screen", "railing", "fence"];
+const kFacades = [
+  "plaster",
+  "brick",
+  "historic",
+  "modern",
+  "concrete",
+  "warehouse",
+  "glass",
+  "blank",
+  "hedge",
+  "screen",
+  "railing",
+  "fence",
+];
 const kRoofKinds = ["flat", "gabled", "hipped", "half_hipped", "mansard", "shed", "sawtooth", "pyramid", "dome"];
 const kCoverings = ["gravel", "tiles", "slate", "metal", "grass", "felt"];
 const kPropKinds = [
@@ -177,7 +190,13 @@ export const kKinds: Kind[] = [
     shape: "polygon",
     outline: "corners",
     fields: [
-      { key: "material", label: "Material", type: "choice", choices: ["pavers", "asphalt", "grass", "concrete", "dirt", "water"], isRequired: true },
+      {
+        key: "material",
+        label: "Material",
+        type: "choice",
+        choices: ["pavers", "asphalt", "grass", "concrete", "dirt", "water"],
+        isRequired: true,
+      },
       { key: "kerb", label: "Kerb", type: "choice", choices: ["0", "1"], usual: "0" },
       number("level_m", "Water level", "m", "-2.5"),
     ],

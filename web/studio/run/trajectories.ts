@@ -46,8 +46,7 @@ export function unseenAt(
   roles.forEach((role, agent) => {
     const at = (time * roles.length + agent) * kAgent.bytes;
     const x = kAgent.read(view, at, "position", 0);
-    if (x === layouts.trajectories.absent || !kPeople.has(role) || seen.has(agent + 1 + run * kTracksPerRun))
-      return;
+    if (x === layouts.trajectories.absent || !kPeople.has(role) || seen.has(agent + 1 + run * kTracksPerRun)) return;
     positions.push([origin[0] + step * x, origin[1] + step * kAgent.read(view, at, "position", 1)]);
   });
   return positions;
