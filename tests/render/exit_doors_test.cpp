@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "render/buildings/building_mesh.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {
