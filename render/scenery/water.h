@@ -16,8 +16,8 @@ PropMesh water_surface(const world::GroundArea& water, std::uint32_t id);
 std::vector<PropMesh> quay_walls(const world::Scenario& scenario, const world::GroundArea& water,
                                  std::uint32_t id);
 
-/// The structure below the part of an area that lies over water: edge beams, and arches on piers; girders
-/// where the water is too high for arches. Empty if the area does not lie over it.
+/// The structure below the part of an area that lies over water: edge beams, and arches on piers;
+/// girders where the water is too high for arches. Empty if the area does not lie over it.
 PropMesh bridge_below(const world::GroundArea& deck, const world::GroundArea& water,
                       std::uint32_t id);
 
