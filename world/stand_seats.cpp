@@ -18,6 +18,10 @@ namespace {
 constexpr double kBlockM = 11;
 constexpr double kTwoAislesM = 3.4;  // shorter stands have one
 constexpr double kSeatSlackM = 1e-9;
+/// Neighbors who come together.
+constexpr double kGroupM = 2;
+constexpr int kGroupRows = 2;
+constexpr std::uint64_t kGroups = std::uint64_t{1} << 40;  // apart from the seats in the stream
 
 /// Number of blocks and their length (m).
 struct Blocks {
@@ -210,10 +214,20 @@ std::vector<Seat> seats(const Stand& stand) {
 }
 
 std::vector<std::size_t> taken_seats(const Stand& stand, std::span<const Seat> seats) {
-  using Ticket = std::pair<std::uint32_t, std::size_t>;  // what was sampled, and for which seat
+  using Ticket = std::pair<double, std::size_t>;  // the higher the later, and for which seat
+  const double half_m = 0.5 * length_m(stand);
   std::vector<Ticket> tickets;
   for (std::size_t i = 0; i < seats.size(); ++i) {
-    tickets.emplace_back(Random(stand.spectators.seed, Stream::spectators, i).bits(), i);
+    const Seat& seat = seats[i];
+    const auto group = static_cast<std::uint64_t>(seat.along_m / kGroupM) * 1024 +
+                       static_cast<std::uint64_t>(seat.row / kGroupRows);
+    const double aside = std::abs(seat.along_m - half_m) / half_m;
+    const double behind = static_cast<double>(seat.row) / stand.rows;
+    tickets.emplace_back(
+        0.4 * Random(stand.spectators.seed, Stream::spectators, kGroups + group).uniform() +
+            0.35 * Random(stand.spectators.seed, Stream::spectators, i).uniform() + 0.25 * aside +
+            0.1 * behind,
+        i);
   }
   std::sort(tickets.begin(), tickets.end());
   const auto count = std::min(static_cast<std::size_t>(stand.spectators.count), tickets.size());

@@ -81,8 +81,9 @@ std::vector<Vomitory> vomitories(const Stand& stand);
 std::optional<Stand> stage_deck(const Prop& prop);
 /// All seats, by row and then along. None where vomitories are. The band's places on a deck.
 std::vector<Seat> seats(const Stand& stand);
-/// The seats of the spectators, a sample by their seed, as indices into `seats` in ascending order.
-/// A larger count contains every smaller one.
+/// The seats of the spectators, a sample by their seed, as indices into `seats` in ascending order:
+/// more in groups than alone, in the middle than at the ends. A larger count contains every smaller
+/// one.
 std::vector<std::size_t> taken_seats(const Stand& stand, std::span<const Seat> seats);
 
 /// Height of the floor at a point (m): of the row's tread, of the slope of an aisle, which passes

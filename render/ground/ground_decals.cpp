@@ -16,6 +16,7 @@
 #include "render/ground/ground_heights.h"
 #include "render/ground/ground_map.h"
 #include "render/ground/ground_tone.h"
+#include "render/ground/pitch.h"
 #include "render/ground/worn_paths.h"
 
 namespace throng::render {
@@ -81,6 +82,7 @@ class Scatterer {
   std::vector<GroundDecal> scatter() {
     add_lanes();
     add_shades();
+    add_pitches();
     for (const GroundDecal& path : worn_paths(scenario_, map_)) decals_.push_back(path);
     for (std::uint64_t i = 0; i < decal_rules().size(); ++i) {
       rule_ = &decal_rules()[i];
@@ -223,6 +225,20 @@ class Scatterer {
       if (!is_bed(area)) continue;
       for (std::size_t i = 0; i < area.corners.size(); ++i) {
         add_shade({area.corners[i], area.corners[(i + 1) % area.corners.size()]}, 0);
+      }
+    }
+  }
+
+  /// Lines again: strips of their width are dashes where they are narrower than a pixel.
+  void add_pitches() {
+    constexpr double kHalfWidthM = 0.25;
+    for (const world::Marking& marking : scenario_.markings) {
+      if (marking.kind != "pitch") continue;
+      for (const GroundSegment& line : pitch_lines(marking)) {
+        decals_.push_back({DecalKind::line,
+                           0.5 * (line.from + line.to),
+                           {std::max(0.5 * line.length_m(), kHalfWidthM), kHalfWidthM},
+                           line.along()});
       }
     }
   }

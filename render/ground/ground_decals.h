@@ -25,6 +25,7 @@ enum class DecalKind : std::uint8_t {
   soil,    ///< a worn path
   wet,
   shade,  ///< at the foot of a kerb
+  line,   ///< of a pitch, as narrow as it appears from afar
   leaves,
   litter,
   gum,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "render/ground/ground_heights.h"
 
@@ -17,14 +18,16 @@ constexpr double kLineM = 0.12;
 /// Lines in the frame of a pitch: x from its middle towards `to`, y to the left.
 class PitchPainter {
  public:
-  PitchPainter(const world::Marking& pitch, GroundBuilder& builder)
-      : middle_(0.5 * (pitch.from + pitch.to)),
-        along_((pitch.to - pitch.from).normalized()),
-        builder_(builder) {}
+  explicit PitchPainter(const world::Marking& pitch)
+      : middle_(0.5 * (pitch.from + pitch.to)), along_((pitch.to - pitch.from).normalized()) {}
 
   void line(const Vector2d& from, const Vector2d& to) {
-    builder_.add_strip({point(from), point(to)}, -0.5 * kLineM, 0.5 * kLineM,
-                       ground_height::kPaintM);
+    constexpr double kPieceM = 4;
+    const double pieces = std::max(1.0, std::ceil((to - from).norm() / kPieceM));
+    const Vector2d step = (to - from) / pieces;
+    for (double i = 0; i < pieces; ++i) {
+      lines.push_back({point(from + i * step), point(from + (i + 1) * step)});
+    }
   }
 
   /// Three sides of a rectangle in front of the goal line at x = side * half_m.
@@ -48,6 +51,8 @@ class PitchPainter {
     }
   }
 
+  std::vector<GroundSegment> lines;
+
  private:
   Vector2d point(const Vector2d& p) const {
     return middle_ + p.x() * along_ + p.y() * Vector2d(-along_.y(), along_.x());
@@ -55,12 +60,11 @@ class PitchPainter {
 
   Vector2d middle_;
   Vector2d along_;
-  GroundBuilder& builder_;
 };
 
 }  // namespace
 
-void add_pitch_lines(const world::Marking& pitch, GroundBuilder& builder) {
+std::vector<GroundSegment> pitch_lines(const world::Marking& pitch) {
   constexpr double kCircleM = 9.15;
   constexpr double kSpotM = 11;  // penalty mark from the goal line
   constexpr double kPenaltyM = 16.5;
@@ -70,7 +74,7 @@ void add_pitch_lines(const world::Marking& pitch, GroundBuilder& builder) {
   constexpr double kPi = std::numbers::pi;
   const double half = 0.5 * (pitch.to - pitch.from).norm();
   const double side = 0.5 * pitch.width_m;
-  PitchPainter painter(pitch, builder);
+  PitchPainter painter(pitch);
   for (const double sign : {-1.0, 1.0}) {
     painter.line({-half, sign * side}, {half, sign * side});
     painter.line({sign * half, -side}, {sign * half, side});
@@ -91,6 +95,13 @@ void add_pitch_lines(const world::Marking& pitch, GroundBuilder& builder) {
   painter.line({0, -side}, {0, side});
   painter.line({-0.06, 0}, {0.06, 0});
   if (kCircleM < std::min(half, side)) painter.arc({0, 0}, kCircleM, 0, 2 * kPi);
+  return std::move(painter.lines);
+}
+
+void add_pitch_lines(const world::Marking& pitch, GroundBuilder& builder) {
+  for (const GroundSegment& line : pitch_lines(pitch)) {
+    builder.add_strip(line, -0.5 * kLineM, 0.5 * kLineM, ground_height::kPaintM);
+  }
 }
 
 void add_mown_stripes(const world::Scenario& scenario, GroundBuilder& builder) {

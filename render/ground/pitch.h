@@ -2,12 +2,18 @@
 // Game, law 1).
 #pragma once
 
+#include <vector>
+
 #include "render/ground/ground_builder.h"
 #include "world/scenario.h"
 
 namespace throng::render {
 
-/// The lines of a pitch; arcs are polygons of sides below half a meter.
+/// The middles of the lines of a pitch, in pieces of at most 4 m; arcs are polygons of sides below
+/// half a meter.
+std::vector<GroundSegment> pitch_lines(const world::Marking& pitch);
+
+/// The lines of a pitch, as wide as they are.
 void add_pitch_lines(const world::Marking& pitch, GroundBuilder& builder);
 
 /// Stripes across the pitches of a scenario, mown in two directions.

@@ -349,7 +349,7 @@ ProbeGrid light_place(const world::Scenario& scenario, const Environment& enviro
                                      [](const PlacedProp& prop) { return !prop.is_backdrop; });
   const PlacePoints used = list_points(meshes, ground, effort, is_empty);
   const Points& points = used.points;
-  ProbeGrid probes(ground, !is_empty);
+  ProbeGrid probes(ground, scenario.stands, !is_empty);
   const SkyLight sky(environment, day);
   const LightRays light(rays, sky, day, lamps);
   const std::size_t surface = 3 * points.all().size();

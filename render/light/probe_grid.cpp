@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/stand_seats.h"
+
 namespace throng::render {
 
 namespace {
@@ -18,7 +20,8 @@ LightField mixed(const LightField& a, const LightField& b, float share) {
 
 }  // namespace
 
-ProbeGrid::ProbeGrid(const Eigen::AlignedBox2d& ground, bool with_probes) {
+ProbeGrid::ProbeGrid(const Eigen::AlignedBox2d& ground, std::span<const world::Stand> stands,
+                     bool with_probes) {
   if (!with_probes) return;
   constexpr double kSpacingM = 2;
   constexpr double kMaxColumns = 6000;
@@ -27,7 +30,14 @@ ProbeGrid::ProbeGrid(const Eigen::AlignedBox2d& ground, bool with_probes) {
   spacing_m_ = static_cast<float>(spacing);
   count_ = (ground.sizes().array() / spacing).ceil().cast<int>().max(1) + 1;
   from_ = ground.min().cast<float>();
-  fields_.resize(2 * static_cast<std::size_t>(count_.prod()) + 1);
+  const auto columns = static_cast<std::size_t>(count_.prod());
+  fields_.resize(2 * columns + 1);
+  if (stands.empty()) return;
+  floor_m_.resize(columns);
+  for (std::size_t i = 0; i < columns; ++i) {
+    floor_m_[i] =
+        static_cast<float>(world::elevation_m(stands, position(i).head<2>().cast<double>()));
+  }
 }
 
 Eigen::Vector3f ProbeGrid::position(std::size_t probe) const {
@@ -39,8 +49,9 @@ Eigen::Vector3f ProbeGrid::position(std::size_t probe) const {
   }
   const auto column = static_cast<int>(probe % layer);
   const int row = column / count_.x();
+  const float floor_m = floor_m_.empty() ? 0.0F : floor_m_[probe % layer];
   return {from_.x() + spacing_m_ * static_cast<float>(column % count_.x()),
-          from_.y() + spacing_m_ * static_cast<float>(row), kHeightsM.at(probe / layer)};
+          from_.y() + spacing_m_ * static_cast<float>(row), floor_m + kHeightsM.at(probe / layer)};
 }
 
 void ProbeGrid::set(const std::vector<std::optional<LightField>>& fields) {
@@ -80,24 +91,29 @@ LightField ProbeGrid::at(const Eigen::Vector3f& point) const {
   const Eigen::Array2f inside = place.max(0.0F).min(last);
   const Eigen::Array2i cell = inside.cast<int>().min(count_.array() - 2).max(0);
   const Eigen::Array2f share = inside - cell.cast<float>();
-  const int layer = count_.prod();
-  const auto in_layer = [&](int level) {
-    const auto probe = [&](int dx, int dy) -> const LightField& {
-      const int x = std::min(cell.x() + dx, count_.x() - 1);
-      const int y = std::min(cell.y() + dy, count_.y() - 1);
-      return fields_[static_cast<std::size_t>(level) * static_cast<std::size_t>(layer) +
-                     static_cast<std::size_t>(y * count_.x() + x)];
-    };
-    return mixed(mixed(probe(0, 0), probe(1, 0), share.x()),
-                 mixed(probe(0, 1), probe(1, 1), share.x()), share.y());
+  const auto column = [&](int dx, int dy) {
+    const int x = std::min(cell.x() + dx, count_.x() - 1);
+    const int y = std::min(cell.y() + dy, count_.y() - 1);
+    return static_cast<std::size_t>(y * count_.x() + x);
   };
+  const auto in_layer = [&](std::size_t level) {
+    const LightField* layer = &fields_[level * static_cast<std::size_t>(count_.prod())];
+    return mixed(mixed(layer[column(0, 0)], layer[column(1, 0)], share.x()),
+                 mixed(layer[column(0, 1)], layer[column(1, 1)], share.x()), share.y());
+  };
+  float height_m = point.z();
+  if (!floor_m_.empty()) {
+    height_m -=
+        std::lerp(std::lerp(floor_m_[column(0, 0)], floor_m_[column(1, 0)], share.x()),
+                  std::lerp(floor_m_[column(0, 1)], floor_m_[column(1, 1)], share.x()), share.y());
+  }
   // Beyond the ground there is open land.
   const float outside_m = spacing_m_ * (place - inside).matrix().norm();
-  const float above = std::clamp((point.z() - kHeightsM[1]) / (kTopM - kHeightsM[1]), 0.0F, 1.0F);
+  const float above = std::clamp((height_m - kHeightsM[1]) / (kTopM - kHeightsM[1]), 0.0F, 1.0F);
   const float away = std::max(above, std::clamp(outside_m / 10, 0.0F, 1.0F));
   if (away >= 1) return fields_.back();
   const float up =
-      std::clamp((point.z() - kHeightsM[0]) / (kHeightsM[1] - kHeightsM[0]), 0.0F, 1.0F);
+      std::clamp((height_m - kHeightsM[0]) / (kHeightsM[1] - kHeightsM[0]), 0.0F, 1.0F);
   return mixed(mixed(in_layer(0), in_layer(1), up), fields_.back(), away);
 }
 

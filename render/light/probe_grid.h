@@ -6,21 +6,26 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/light/light_bake.h"
+#include "world/stand.h"
 
 namespace throng::render {
 
-/// Probes about 2 m apart in two layers, and one for the open air above.
+/// Probes about 2 m apart in two layers above the ground, or above the rows of stands, and one for
+/// the open air above.
 class ProbeGrid {
  public:
   /// Heights of the layers (m): of knees, and of heads.
   static constexpr std::array<float, 2> kHeightsM = {0.6F, 1.8F};
 
   ProbeGrid() = default;
-  /// A grid over the ground, without light; `with_probes` false: only the one in the open.
-  ProbeGrid(const Eigen::AlignedBox2d& ground, bool with_probes);
+  /// A grid over the ground and its stands, without light; `with_probes` false: only the one in the
+  /// open.
+  ProbeGrid(const Eigen::AlignedBox2d& ground, std::span<const world::Stand> stands,
+            bool with_probes);
 
   /// Number of probes, the last in the open.
   std::size_t size() const { return fields_.size(); }
@@ -38,6 +43,7 @@ class ProbeGrid {
   Eigen::Vector2f from_ = Eigen::Vector2f::Zero();
   float spacing_m_ = 2;
   Eigen::Vector2i count_ = Eigen::Vector2i::Zero();
+  std::vector<float> floor_m_;  ///< by column; empty if all are 0
   std::vector<LightField> fields_ = {LightField{}};
 };
 

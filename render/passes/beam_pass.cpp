@@ -51,10 +51,10 @@ BeamPass::BeamPass(const world::Scenario& scenario, bool lamps_on, std::string_v
 
 void BeamPass::add_beams(double time_s) {
   constexpr double kLengthM = 34;
-  constexpr double kLensM = 0.12;
-  constexpr double kSpread = 0.022;  // radius per meter
+  constexpr double kLensM = 0.2;
+  constexpr double kSpread = 0.03;  // radius per meter
   constexpr double kSwingRad = 0.32;
-  constexpr double kLight = 7e-4;
+  constexpr double kLight = 2.6e-3;
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     const ShapeBeam& beam = beams_[i];
     const auto phase = static_cast<double>(i);
@@ -91,7 +91,7 @@ void BeamPass::add_phones(const Scene& scene) {
     const double height = person.position.z() + random.uniform(1.35, 1.85);
     const Vector2d ahead = at + 0.38 * Vector2d(std::cos(yaw), std::sin(yaw));
     const Vector3d low(ahead.x(), ahead.y(), height);
-    streaks_.push_back({four(low, 0.05), four(low + Vector3d(0, 0, 0.1), 0.05),
+    streaks_.push_back({four(low, 0.06), four(low + Vector3d(0, 0, 0.15), 0.06),
                         four(random.uniform(1.2e-3, 3e-3) * glow, 1)});
   }
 }

@@ -115,12 +115,12 @@ class StandBuilder {
   }
 
   /// An upright surface that faces away from the field.
-  void facing_away(double a, double b, double back, double low, double high,
-                   const Vector3d& paint) {
+  void facing_away(double a, double b, double back, double low, double high, const Vector3d& paint,
+                   Finish finish = Finish::matt) {
     at(0.5 * (a + b), back)
         .quad({Vector3d(a, -back, low), Vector3d(b, -back, low), Vector3d(b, -back, high),
                Vector3d(a, -back, high)},
-              paint, Finish::matt);
+              paint, finish);
   }
 
   /// A level surface.
@@ -348,10 +348,12 @@ class StandBuilder {
       const double b = a + bay;
       facing_field(a, b, 0, 0, stand_.front_height_m, 1.05 * kStandConcrete);
       // Panels end beside the columns, within which no light is known.
-      facing_away(a + 0.22, b - 0.22, depth_, 0, crest, 0.9 * kStandConcrete);
+      facing_away(a + 0.22, b - 0.22, depth_, 0, crest, 1.4 * kStandConcrete);
       facing_field(a, b, depth_ - 0.15, top_m(), crest, 0.9 * kStandConcrete);
       level(a, b, depth_ - 0.15, depth_, crest, kStandConcrete);
-      box(a - 0.2, a + 0.2, depth_, depth_ + 0.3, 0, crest - 0.6, kStandConcrete);
+      box(a - 0.2, a + 0.2, depth_, depth_ + 0.3, 0, crest - 0.6, 1.2 * kStandConcrete);
+      // A band in the color of the seats, as high as a person.
+      facing_away(a + 0.22, b - 0.22, depth_ + 0.04, crest - 1.5, crest - 0.3, 0.8 * first_);
       constexpr double kGateM = 2.6;
       if (crest > kGateM + 0.8) {
         facing_away(a + 1.2, b - 1.2, depth_ + 0.012, 0, kGateM,
@@ -359,7 +361,8 @@ class StandBuilder {
         box(a + 1, b - 1, depth_, depth_ + 0.5, kGateM + 0.05, kGateM + 0.2, 0.9 * kStandConcrete);
       }
       for (double z = kGateM + 1; z + 1 < crest; z += 2.6) {
-        facing_away(a + 0.6, b - 0.6, depth_ + 0.012, z, z + 0.9, 1.3 * kStandDark);
+        facing_away(a + 0.6, b - 0.6, depth_ + 0.012, z, z + 0.9, 1.3 * kStandDark,
+                    Finish::lit_glass);
       }
     }
   }

@@ -12,7 +12,8 @@ const int kTracks = 8;
 const int kSoil = 9;
 const int kWet = 10;
 const int kShade = 11;
-const int kLeaves = 12;  // and what follows: small objects
+const int kLine = 12;
+const int kLeaves = 13;  // and what follows: small objects
 
 const float kFarM = 120.0;
 
@@ -136,6 +137,10 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   }
   if (kind == kChalk) albedo = chalk(p, half_size, w, pick, rough);
   if (kind == kSigns) albedo = sprayed(p, half_size, w, pick);
+  if (kind == kLine) {
+    opacity = clamp((0.06 - abs(p.y)) / width.y + 0.5, 0.0, 1.0) * min(0.12 / width.y, 1.0);
+    albedo = vec3(0.6, 0.6, 0.57);
+  }
   if (kind == kSoil) {
     float edge = max(at.y, max(at.x - 0.5, 0.0) * 2.0);
     opacity = 0.88 * smoothstep(1.0, 0.45, edge + 0.8 * (rough - 0.35));
