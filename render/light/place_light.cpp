@@ -57,7 +57,7 @@ constexpr std::uint32_t kInTheOpen = ~0U;
 
 /// Most points of a place: more than about these take longer than the few seconds that a place is
 /// worth, and lie closer than light varies.
-constexpr std::size_t kMaxPoints = 75'000;
+constexpr std::size_t kMaxPoints = 90'000;
 
 /// Points whose light is wanted, each once, and which of them vertices use. Those within `step_m`
 /// of each other with about the same normal are one.
@@ -70,7 +70,7 @@ class Points {
       return static_cast<int>(std::lround(value / step));
     };
     const float step_m = std::max(step_m_, point.share_m);
-    const float normal_step = point.share_m > 0 ? 0.3F : normal_step_;
+    const float normal_step = point.share_m > 0 ? 0.6F : normal_step_;
     // Layers of ground lie closer than the third number tells apart.
     const std::array<int, 7> key = {round(point.position.x(), step_m),
                                     round(point.position.y(), step_m),
@@ -80,7 +80,12 @@ class Points {
                                     round(point.normal.z(), normal_step),
                                     point.paths};
     const auto [found, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(all_.size()));
-    if (is_new) all_.push_back(point);
+    if (is_new) {
+      all_.push_back(point);
+    } else if (Point& first = all_[found->second];
+               first.share_m > 0 && point.share_m > 0 && point.position.z() > first.position.z()) {
+      first = point;  // corners at the ground would darken all that share theirs
+    }
     return found->second;
   }
   const std::vector<Point>& all() const { return all_; }
@@ -120,7 +125,7 @@ std::vector<std::uint32_t> list_points(const SceneryMesh& mesh, const Eigen::Ali
 std::vector<std::uint32_t> list_points(const PropMesh& mesh, const Effort& effort, float share_m,
                                        Points& points) {
   constexpr std::size_t kCardCorners = 4;
-  constexpr float kNearDetailM = 0.3F;
+  constexpr float kNearDetailM = 2;
   std::vector<std::uint32_t> used;
   used.reserve(mesh.vertices.size());
   // Light hardly varies along what is only drawn near by.
@@ -175,7 +180,12 @@ PlacePoints list_points(const PlaceMeshes& meshes, const Eigen::AlignedBox2d& gr
                               : list_points(meshes.scenery, ground, effort.scenery, listed.points);
     for (const PlacedProp& prop : meshes.props) {
       constexpr float kDetailM = 0.5F;
-      const float share_m = prop.is_detail ? kDetailM : 0;
+      constexpr std::size_t kSmallVertices = 3000;
+      constexpr float kSmallSteps = 5;
+      // Light varies less along what is small than along grounds, walls and stands.
+      const bool is_coarse = step_m > Points::kFineM && prop.mesh.vertices.size() < kSmallVertices;
+      const float share_m =
+          std::max(prop.is_detail ? kDetailM : 0, is_coarse ? kSmallSteps * step_m : 0);
       listed.props.push_back(prop.is_backdrop
                                  ? in_the_open(prop.mesh.vertices)
                                  : list_points(prop.mesh, effort, share_m, listed.points));

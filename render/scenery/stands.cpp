@@ -81,11 +81,12 @@ class StandBuilder {
   }
 
   std::vector<PropMesh> build() {
+    // First: points of light that surfaces share are those of the first.
+    add_outside();
     for (int row = 0; row < stand_.rows; ++row) add_row(row);
     for (const world::Aisle& aisle : world::aisles(stand_)) add_stairs(aisle);
     for (const world::Vomitory& opening : openings_) add_opening(opening);
     add_seats();
-    add_outside();
     add_front_rail();
     if (stand_.roof) add_roof();
     std::vector<PropMesh> meshes;
