@@ -339,6 +339,37 @@ class StandBuilder {
     builder.is_near = false;
   }
 
+  /// A way in, or a shutter of slats beside a door, with a canopy and a lamp above.
+  void add_gate(double a, double b, double top, bool is_open) {
+    const double y = depth_ + 0.012;
+    if (is_open) {
+      facing_away(a, b, y, 0, top, kStandDark);
+      for (const double x : {a + 0.35 * (b - a), a + 0.65 * (b - a)}) {
+        at(x, y).tube({x, -y - 0.2, 0}, 0.03, {x, -y - 0.2, 1}, 0.03, kStandSteel, Finish::matt, 4);
+      }
+    } else {
+      constexpr int kSlats = 6;
+      const double door = b - 1;
+      for (int k = 0; k < kSlats; ++k) {
+        facing_away(a, door - 0.2, y, top * k / kSlats, top * (k + 1) / kSlats,
+                    (k % 2 == 0 ? 0.75 : 0.62) * kStandSteel);
+      }
+      facing_away(door, b, y, 0, 2.1, 0.8 * first_);
+      facing_away(door + 0.3, b - 0.3, y + 0.01, 1.3, 1.8, kStandDark, Finish::lit_glass);
+    }
+    box(a - 0.2, b + 0.2, depth_, depth_ + 0.9, top + 0.05, top + 0.2, 0.9 * kStandConcrete);
+    const double middle = 0.5 * (a + b);
+    facing_away(middle - 0.4, middle + 0.4, depth_ + 0.02, top + 0.3, top + 0.5, last_,
+                Finish::lit_glass);
+  }
+
+  /// A banner that hangs on a column.
+  void add_banner(double along, double top, const Vector3d& paint) {
+    const double y = depth_ + 0.36;
+    facing_away(along - 0.45, along + 0.45, y, std::max(top - 2.8, 2.9), top, paint);
+    facing_away(along - 0.45, along + 0.45, y + 0.01, std::max(top - 1.2, 3.2), top - 0.9, last_);
+  }
+
   /// Front wall, and the back with its columns, a band of windows and gates.
   void add_outside() {
     const double bays = std::max(1.0, std::round(length_ / 6));
@@ -357,9 +388,8 @@ class StandBuilder {
       facing_away(a + 0.22, b - 0.22, depth_ + 0.04, crest - 1.5, crest - 0.3, 0.8 * first_);
       constexpr double kGateM = 2.6;
       if (crest > kGateM + 0.8) {
-        facing_away(a + 1.2, b - 1.2, depth_ + 0.012, 0, kGateM,
-                    static_cast<int>(i) % 3 == 1 ? kStandDark : 0.6 * kStandConcrete);
-        box(a + 1, b - 1, depth_, depth_ + 0.5, kGateM + 0.05, kGateM + 0.2, 0.9 * kStandConcrete);
+        add_gate(a + 1.2, b - 1.2, kGateM, static_cast<int>(i) % 3 == 1);
+        add_banner(a, crest - 0.8, static_cast<int>(i) % 2 == 0 ? first_ : last_);
       }
       for (double z = kGateM + 1; z + 1 < crest; z += 2.6) {
         facing_away(a + 0.6, b - 0.6, depth_ + 0.012, z, z + 0.9, 1.3 * kStandDark,
