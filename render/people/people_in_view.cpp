@@ -138,7 +138,7 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
   seen.reserve(scene.people.size());
   skinning::Palette blended;
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
-    PersonInstance person = scene.people[i];
+    const PersonInstance& person = scene.people[i];
     check(person.appearance.character < population_->characters.size() &&
               std::max(person.pose.a, person.pose.b) < population_->palettes_per_character,
           "people use characters and palettes that the population has");
@@ -149,11 +149,10 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     const double depth_m = std::max<double>(camera.project(middle).depth_m, kNear);
     const double height_px = camera.intrinsics.fy_px * character.stature_m / depth_m;
     const PersonDraw draw = draw_of(i, height_px, depth_m, character.levels.size());
-    person.pose = drawn_pose(person.pose, draw.level);
-    if (person.pose.blend > 0) blended = blended_palette(*population_, person);
+    const skinning::PoseBlend drawn = drawn_pose(person.pose, draw.level);
+    if (drawn.blend > 0) blended = blended_palette(*population_, person);
     const skinning::Palette& palette =
-        person.pose.blend > 0 ? blended
-                              : population_->palette(person.appearance.character, person.pose.a);
+        drawn.blend > 0 ? blended : population_->palette(person.appearance.character, drawn.a);
     const Stance stance(person);
     const auto box_of = [&](const std::vector<std::vector<BodyShape>>& shapes) {
       const BodyShape& shape = shapes[person.appearance.character][draw.level];
@@ -171,7 +170,9 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     found.truth.head_box =
         head_box(head_points(person.appearance.character, draw.level), palette, stance, camera);
     found.truth.level = draw.level;
-    measure(person, stance, palette, found.truth);
+    // In space everybody is the same for all cameras.
+    if (drawn.blend == 0 && person.pose.blend > 0) blended = blended_palette(*population_, person);
+    measure(person, stance, person.pose.blend > 0 ? blended : palette, found.truth);
   }
   const auto by_agent = [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; };
   // Scenes list people in this order already, and large values are slow to move.

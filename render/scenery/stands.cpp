@@ -357,7 +357,7 @@ class StandBuilder {
       facing_away(door, b, y, 0, 2.1, 0.8 * first_);
       facing_away(door + 0.3, b - 0.3, y + 0.01, 1.3, 1.8, kStandDark, Finish::lit_glass);
     }
-    box(a - 0.2, b + 0.2, depth_, depth_ + 0.9, top + 0.05, top + 0.2, 0.9 * kStandConcrete);
+    box(a - 0.2, b + 0.2, depth_, depth_ + 0.5, top + 0.05, top + 0.2, 0.9 * kStandConcrete);
     const double middle = 0.5 * (a + b);
     facing_away(middle - 0.4, middle + 0.4, depth_ + 0.02, top + 0.3, top + 0.5, last_,
                 Finish::lit_glass);
@@ -366,8 +366,8 @@ class StandBuilder {
   /// A banner that hangs on a column.
   void add_banner(double along, double top, const Vector3d& paint) {
     const double y = depth_ + 0.36;
-    facing_away(along - 0.45, along + 0.45, y, std::max(top - 2.8, 2.9), top, paint);
-    facing_away(along - 0.45, along + 0.45, y + 0.01, std::max(top - 1.2, 3.2), top - 0.9, last_);
+    facing_away(along - 0.25, along + 0.25, y, std::max(top - 2.8, 2.9), top, paint);
+    facing_away(along - 0.25, along + 0.25, y + 0.01, std::max(top - 1.2, 3.2), top - 0.9, last_);
   }
 
   /// Front wall, and the back with its columns, a band of windows and gates.

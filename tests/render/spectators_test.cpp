@@ -111,8 +111,10 @@ TEST_F(OnAStand, SittersAreLowerThanThoseWhoStandAndThoseWhoCheer) {
       return static_cast<double>(person.box_size.z());
     };
     EXPECT_GT(height(stands.people[i]), 0.9 * stature_m);
-    // Anthropometric tables have the sitting height, of children and adults, near half the stature.
-    EXPECT_NEAR(height(sits.people[i]) - world::kSeatHeightM, 0.53 * stature_m, 0.07 * stature_m);
+    // Anthropometric tables have the sitting height, of children and adults, near half the stature;
+    // some lean forward.
+    EXPECT_GT(height(sits.people[i]) - world::kSeatHeightM, 0.4 * stature_m);
+    EXPECT_LT(height(sits.people[i]) - world::kSeatHeightM, 0.6 * stature_m);
     EXPECT_LT(height(sits.people[i]), 0.95 * height(stands.people[i]));
     EXPECT_GT(height(cheers.people[i]), height(stands.people[i]) - 0.02);
     EXPECT_TRUE(sits.people[i].actions.has(skinning::Action::sit));
