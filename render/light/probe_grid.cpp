@@ -94,7 +94,8 @@ LightField ProbeGrid::at(const Eigen::Vector3f& point) const {
   const auto column = [&](int dx, int dy) {
     const int x = std::min(cell.x() + dx, count_.x() - 1);
     const int y = std::min(cell.y() + dy, count_.y() - 1);
-    return static_cast<std::size_t>(y * count_.x() + x);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(count_.x()) +
+           static_cast<std::size_t>(x);
   };
   const auto in_layer = [&](std::size_t level) {
     const LightField* layer = &fields_[level * static_cast<std::size_t>(count_.prod())];

@@ -37,9 +37,15 @@ struct Side {
   }
 };
 
+/// The nearest integer of a number that is not negative; std::lround() takes much longer.
+int rounded(float value) {
+  constexpr float kToNearest = 0.5F;
+  return static_cast<int>(value + kToNearest);
+}
+
 /// The square root of a share, as an integer up to `max`.
 std::uint32_t root_bits(float share, float max) {
-  return static_cast<std::uint32_t>(std::sqrt(std::clamp(share, 0.0F, 1.0F)) * max + 0.5F);
+  return static_cast<std::uint32_t>(rounded(std::sqrt(std::clamp(share, 0.0F, 1.0F)) * max));
 }
 
 }  // namespace
@@ -153,8 +159,7 @@ bool DistantPainter::place_corners(const Person& person) {
     const float x = p.x() * per_z;
     const float y = p.y() * per_z;
     if (std::min(x, y) < 0 || std::max(x, y) > kFarPx) return false;
-    corners_[i] = {static_cast<int>(x * kSnap + 0.5F), static_cast<int>(y * kSnap + 0.5F),
-                   kNear * per_z};
+    corners_[i] = {rounded(x * kSnap), rounded(y * kSnap), kNear * per_z};
   }
   return true;
 }
@@ -163,7 +168,9 @@ void DistantPainter::clear_tiles(const Eigen::AlignedBox2i& pixels) {
   const int tiles_across = (width_ + kTilePx - 1) / kTilePx;
   for (int y = pixels.min().y() / kTilePx; y <= (pixels.max().y() - 1) / kTilePx; ++y) {
     for (int x = pixels.min().x() / kTilePx; x <= (pixels.max().x() - 1) / kTilePx; ++x) {
-      std::uint32_t& shown = tile_image_[static_cast<std::size_t>(y * tiles_across + x)];
+      std::uint32_t& shown =
+          tile_image_[static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles_across) +
+                      static_cast<std::size_t>(x)];
       if (shown == image_) continue;
       shown = image_;
       const Eigen::Vector2i first(x * kTilePx, y * kTilePx);
@@ -197,7 +204,7 @@ PaintedPixel DistantPainter::color_of(const Person& person, const DistantTriangl
     pixel.light |= root_bits(light[i], 1023) << (10 * i);
   }
   const float sun = std::clamp(normal.dot(sun_), 0.0F, 1.0F);
-  pixel.albedo |= static_cast<std::uint32_t>(255 * sun + 0.5F) << kSunBits;
+  pixel.albedo |= static_cast<std::uint32_t>(rounded(255 * sun)) << kSunBits;
   return pixel;
 }
 

@@ -100,6 +100,7 @@ class GroundGrid {
 
   void add_fan(const std::vector<Eigen::Vector2d>& polygon) {
     std::vector<std::uint32_t> numbers;
+    numbers.reserve(polygon.size());
     for (const Eigen::Vector2d& p : polygon) numbers.push_back(add_vertex(p));
     for (std::size_t i = 2; i < numbers.size(); ++i) {
       mesh_.indices.insert(mesh_.indices.end(), {numbers[0], numbers[i - 1], numbers[i]});
