@@ -132,6 +132,7 @@ std::vector<Aisle> aisles(const Stand& stand) {
   const Blocks blocks = block_layout(stand);
   const int count = blocks.count + (has_end_aisle(length_m(stand)) ? 1 : 0);
   std::vector<Aisle> found;
+  found.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     found.push_back({i * (blocks.length_m + kAisleWidthM) + 0.5 * kAisleWidthM});
   }
