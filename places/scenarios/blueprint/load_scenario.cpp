@@ -7,6 +7,7 @@
 
 #include "places/scenarios/blueprint/blueprint.h"
 #include "world/extended_document.h"
+#include "world/fields/read_scenario.h"
 
 namespace throng::scenarios {
 
