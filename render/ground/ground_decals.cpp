@@ -267,14 +267,10 @@ class Scatterer {
 
   /// Pitches are well kept.
   bool lies_on_pitch(const Vector2d& point) const {
-    return std::any_of(
-        scenario_.markings.begin(), scenario_.markings.end(), [&](const world::Marking& marking) {
-          if (marking.kind != "pitch") return false;
-          const Vector2d along = (marking.to - marking.from).normalized();
-          const Vector2d off = point - 0.5 * (marking.from + marking.to);
-          return std::abs(off.dot(along)) < 0.5 * (marking.to - marking.from).norm() &&
-                 std::abs(geometry::cross(along, off)) < 0.5 * marking.width_m;
-        });
+    return std::any_of(scenario_.markings.begin(), scenario_.markings.end(),
+                       [&](const world::Marking& marking) {
+                         return marking.kind == "pitch" && is_on_pitch(marking, point);
+                       });
   }
 
   bool is_free(const GroundDecal& decal, std::string_view material) const {

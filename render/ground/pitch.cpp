@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLineM = 0.12;
+constexpr double kLineM = 0.12;  // also in shaders/ground_decals.glsl
 
 /// Lines in the frame of a pitch: x from its middle towards `to`, y to the left.
 class PitchPainter {
@@ -63,6 +63,13 @@ class PitchPainter {
 };
 
 }  // namespace
+
+bool is_on_pitch(const world::Marking& pitch, const Vector2d& point) {
+  const GroundSegment axis = {pitch.from, pitch.to};
+  const Vector2d off = point - 0.5 * (pitch.from + pitch.to);
+  return std::abs(off.dot(axis.along())) < 0.5 * axis.length_m() &&
+         std::abs(off.dot(axis.left())) < 0.5 * pitch.width_m;
+}
 
 std::vector<GroundSegment> pitch_lines(const world::Marking& pitch) {
   constexpr double kCircleM = 9.15;

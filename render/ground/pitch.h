@@ -13,6 +13,9 @@ namespace throng::render {
 /// half a meter.
 std::vector<GroundSegment> pitch_lines(const world::Marking& pitch);
 
+/// Whether a point lies on a pitch.
+bool is_on_pitch(const world::Marking& pitch, const Eigen::Vector2d& point);
+
 /// The lines of a pitch, as wide as they are.
 void add_pitch_lines(const world::Marking& pitch, GroundBuilder& builder);
 

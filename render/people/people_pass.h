@@ -36,7 +36,7 @@ struct PersonDraw {
   static constexpr std::array<std::int32_t, 2> kNowhere = {1 << 24, 1 << 24};
 };
 
-/// The place at which a person's light is taken: the hips of somebody who stands here.
+/// The place at which a person's light is taken: about at the hips, 1 m above the feet.
 inline Eigen::Vector3f light_point(const Eigen::Vector3f& feet) {
   return feet + Eigen::Vector3f::UnitZ();
 }

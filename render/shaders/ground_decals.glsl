@@ -137,7 +137,7 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   }
   if (kind == kChalk) albedo = chalk(p, half_size, w, pick, rough);
   if (kind == kSigns) albedo = sprayed(p, half_size, w, pick);
-  if (kind == kLine) {
+  if (kind == kLine) {  // 0.12 m wide: also in render/ground/pitch.cpp
     opacity = clamp((0.06 - abs(p.y)) / width.y + 0.5, 0.0, 1.0) * min(0.12 / width.y, 1.0);
     albedo = vec3(0.6, 0.6, 0.57);
   }

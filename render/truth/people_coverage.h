@@ -17,7 +17,7 @@ namespace throng::render {
 
 class PeopleCoverage {
  public:
-  /// Reserves a tile for each person who is wholly within the image and has not been painted
+  /// Reserves a tile for each person wholly within the image who has not been painted
   /// (DistantPass, which measures them), as far as there is room, and
   /// binds the atlas of tiles for PeoplePass::Purpose::truth.
   void prepare(const camera::Camera& camera, std::vector<Seen>& seen);

@@ -74,6 +74,25 @@ TEST(GroundDecals, LieOnTheGroundOutsideOfBuildings) {
   }
 }
 
+TEST(GroundDecals, LinesOfAPitchAreAsLongAsItsOutlineAtLeast) {
+  world::Scenario scenario = open_ground();
+  const auto lines_m = [&] {
+    double sum_m = 0;
+    for (const GroundDecal& decal : ground_decals(scenario)) {
+      if (decal.kind == DecalKind::line) sum_m += 2 * decal.half_size.x();
+    }
+    return sum_m;
+  };
+  EXPECT_EQ(lines_m(), 0);
+  world::Marking pitch;
+  pitch.kind = "pitch";
+  pitch.from = {-25, 0};
+  pitch.to = {25, 0};
+  pitch.width_m = 30;
+  scenario.markings = {pitch};
+  EXPECT_GT(lines_m(), 2 * (50 + 30));
+}
+
 TEST(GroundDecals, RepairsLieOnOneMaterialAndBelowNoProp) {
   const world::Scenario scenario = lively_place();
   const GroundMap map(scenario);

@@ -13,6 +13,7 @@
 #include "render/light/surfaces.h"
 #include "render/scenery/scenery.h"
 #include "tests/render/stage.h"
+#include "world/stand_seats.h"
 
 namespace throng::render {
 namespace {
@@ -280,6 +281,31 @@ TEST(LitScenario, PeopleAreDarkInAPassageAndWarmBesideASunlitWall) {
   const Array3f beside = air.at({-1, 7, 1}).received(Vector3f::UnitX());
   const Array3f in_the_open = air.at({-25, 25, 1}).received(Vector3f::UnitX());
   EXPECT_GT(beside.x() / beside.z(), 1.2F * in_the_open.x() / in_the_open.z());
+}
+
+TEST(LitScenario, LampsReachPeopleOnAStand) {
+  world::Scenario scenario = open_ground();
+  world::Stand stand;
+  stand.id = "stand";
+  stand.from = {-20, 0};
+  stand.to = {20, 0};
+  scenario.stands = {stand};
+  world::Prop mast;
+  mast.kind = world::PropKind::floodlight_mast;
+  mast.position = {0, 25};
+  mast.yaw_rad = -90 * kDegree;
+  scenario.props = {mast};
+  PlaceMeshes meshes = place_meshes(scenario, false);
+  const Environment environment = make_sky(Weather::clear, -30);
+  const ProbeGrid air = light_place(scenario, environment, daylight(environment),
+                                    quality_settings(Quality::standard), {}, meshes);
+  const Eigen::Vector2d row = world::point_on(stand, 20, 14);
+  const auto floor_m = static_cast<float>(world::elevation_m(scenario.stands, row));
+  ASSERT_GT(floor_m, 6);
+  const Vector3f person(static_cast<float>(row.x()), static_cast<float>(row.y()), floor_m + 1);
+  const Array3f lit = air.at(person).received(Vector3f::UnitZ());
+  // The light of the open air, which people as high above the ground have, knows no lamps.
+  EXPECT_GT(lit.mean(), 1.5F * air.open().received(Vector3f::UnitZ()).mean());
 }
 
 TEST(LitScenario, LabelsAreThoseOfCoarserTriangles) {

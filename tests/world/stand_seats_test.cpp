@@ -116,6 +116,25 @@ TEST(StandSeats, SpectatorsOfALargerCountContainThoseOfASmallerOne) {
   EXPECT_NE(taken_seats(stand, all), many);
 }
 
+TEST(StandSeats, SpectatorsSitInGroupsAndMoreInTheMiddle) {
+  Stand stand = main_stand();
+  const std::vector<Seat> all = seats(stand);
+  stand.spectators = {static_cast<int>(all.size() / 5), 7};
+  const std::vector<std::size_t> taken = taken_seats(stand, all);
+  const double count = static_cast<double>(taken.size());
+  double pairs = 0;  // with somebody on the next seat
+  double in_the_middle = 0;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    const Seat& seat = all[taken[i]];
+    in_the_middle += std::abs(seat.along_m / length_m(stand) - 0.5) < 0.25 ? 1 : 0;
+    if (i + 1 == taken.size() || taken[i + 1] != taken[i] + 1) continue;
+    pairs += all[taken[i + 1]].row == seat.row ? 1 : 0;
+  }
+  // Of people who choose at random a fifth have a neighbor on that side, half are in the middle.
+  EXPECT_GT(pairs, 0.3 * count);
+  EXPECT_GT(in_the_middle, 0.6 * count);
+}
+
 TEST(StandElevation, FollowsTreadsAislesAndTheStepsBeforeThem) {
   const std::vector<Stand> stands = {main_stand()};
   const auto at = [&](double along_m, double back_m) {
