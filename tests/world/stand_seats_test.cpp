@@ -130,7 +130,7 @@ TEST(StandSeats, SpectatorsSitInGroupsAndMoreInTheMiddle) {
     if (i + 1 == taken.size() || taken[i + 1] != taken[i] + 1) continue;
     pairs += all[taken[i + 1]].row == seat.row ? 1 : 0;
   }
-  // Of people who choose at random a fifth have a neighbor on that side, half are in the middle.
+  // By chance alone a fifth would have a neighbor on that side, and half would be in the middle.
   EXPECT_GT(pairs, 0.3 * count);
   EXPECT_GT(in_the_middle, 0.6 * count);
 }
