@@ -89,8 +89,9 @@ TEST_F(Textures, DoNotHangOnTheOrderOfThePeople) {
   }
 }
 
-/// How far the vertices of a level leave a person's box, m, and how far its sides are beyond all
-/// vertices of all levels.
+/// How far the vertices of a level leave a person's box in the person's true pose, m, and how far
+/// its sides are beyond all vertices of all levels. Distant people are drawn by one palette near
+/// that pose, but ground truth does not depend on the camera's distance.
 struct Misfit {
   double outside_m = 0;
   double loose_m = 0;
@@ -99,7 +100,7 @@ struct Misfit {
 Misfit measure_misfit(const skinning::Population& people, const PersonInstance& person,
                       const PersonInView& truth) {
   const skinning::Character& character = people.characters[person.appearance.character];
-  const skinning::PoseBlend pose = drawn_pose(person.pose, truth.level);
+  const skinning::PoseBlend& pose = person.pose;
   const skinning::Palette& a = people.palette(person.appearance.character, pose.a);
   const skinning::Palette& b = people.palette(person.appearance.character, pose.b);
   const Eigen::AngleAxisd back(-static_cast<double>(truth.yaw_rad), Eigen::Vector3d::UnitZ());
