@@ -89,9 +89,9 @@ TEST_F(Textures, DoNotHangOnTheOrderOfThePeople) {
   }
 }
 
-/// How far the vertices of a level leave a person's box in the person's true pose, m, and how far
-/// its sides are beyond all vertices of all levels. Distant people are drawn by one palette near
-/// that pose, but ground truth does not depend on the camera's distance.
+/// How far the vertices of all levels leave a person's box in space, m, and how far its sides are
+/// beyond them. It is measured in the person's pose: distant people are drawn in a frame near it,
+/// but boxes in space are the same for all cameras.
 struct Misfit {
   double outside_m = 0;
   double loose_m = 0;
