@@ -21,13 +21,31 @@ enum class Action : std::uint8_t {
   panic,          ///< runs with raised arms
   sit,
   cheer,  ///< stands with raised arms, which wave
+  squat,
+  cower,  ///< crouches with the hands over the head
+  lean,   ///< against a wall, a rail or a table
+  talk,   ///< with gestures
+  call,   ///< holds a phone to the ear
+  film,   ///< holds a phone up before the eyes
+  point,
+  wave,
+  clap,
+  dance,
+  eat,
+  drink,
+  smoke,
+  read,       ///< a map or a leaflet, held with both hands
+  look_back,  ///< turns the head over the shoulder while moving
 };
-inline constexpr std::size_t kActionCount = 13;
+inline constexpr std::size_t kActionCount = 28;
 inline constexpr std::array<std::string_view, kActionCount> kActionNames = {
-    "stand",       "walk",      "run",           "turn",  "fall", "lie",  "get_up",
-    "look_around", "use_phone", "look_at_drone", "panic", "sit",  "cheer"};
+    "stand",       "walk",      "run",           "turn",  "fall",  "lie",   "get_up",
+    "look_around", "use_phone", "look_at_drone", "panic", "sit",   "cheer", "squat",
+    "cower",       "lean",      "talk",          "call",  "film",  "point", "wave",
+    "clap",        "dance",     "eat",           "drink", "smoke", "read",  "look_back"};
 
-/// A set of simultaneous actions: one of stand to get_up and sit, and any of the others.
+/// A set of simultaneous actions: one of stand to get_up, sit, squat and cower, and any of the
+/// others.
 class Actions {
  public:
   constexpr Actions() = default;
