@@ -124,7 +124,7 @@ render::Scene spectators(const skinning::Population& people, world::Stand stand,
     posture.since_s = 2;
     const double phase = person.appearance.phase_offset;
     person.pose = poses.at(posture, phase, 2 + phase);
-    person.actions = skinning::SpectatorPoses::actions(posture);
+    person.actions = skinning::SpectatorPoses::actions(posture, phase);
     scene.people.push_back(person);
   }
   return scene;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 #include <string>
 
@@ -50,7 +51,12 @@ Gaze gaze_at(const Eigen::Vector3d& drone, const Eigen::Vector2f& from, float ya
 /// One agent of a trace as its motion sees it.
 class Watcher {
  public:
-  explicit Watcher(const world::Trace& trace) : trace_(trace), drones_(trace.steps()) {
+  explicit Watcher(const world::Trace& trace)
+      : trace_(trace), drones_(trace.steps()), has_company_(trace.agents(), 0) {
+    find_company();
+    for (const std::string& name : trace.header.state_names) {
+      watches_.push_back(name == world::kWatchState ? 1 : 0);
+    }
     for (std::size_t step = 0; step < trace.steps(); ++step) {
       for (std::size_t drone = 0; drone < trace.drones.size(); ++drone) {
         if (trace.drones[drone].empty()) continue;
@@ -66,6 +72,7 @@ class Watcher {
     moment.yaw_rad = trace_.yaw_rad[at];
     moment.down = (trace_.flags[at] & world::kFallen) != 0;
     moment.panicked = (trace_.flags[at] & world::kPanicked) != 0;
+    moment.setting = setting(agent, at, moment.panicked);
     if (!curiosity.at(trace_.time_s[step])) return moment;
     for (const Eigen::Vector3d& drone : drones_[step]) {
       moment.gaze = gaze_at(drone, moment.position, moment.yaw_rad);
@@ -75,8 +82,26 @@ class Watcher {
   }
 
  private:
+  void find_company() {
+    const std::vector<std::int32_t>& group = trace_.header.group;
+    std::map<std::int32_t, int> size;
+    for (const std::int32_t of_agent : group) ++size[of_agent];
+    for (std::size_t agent = 0; agent < group.size(); ++agent) {
+      has_company_[agent] = group[agent] >= 0 && size[group[agent]] > 1 ? 1 : 0;
+    }
+  }
+
+  skinning::Setting setting(std::size_t agent, std::size_t at, bool panicked) const {
+    if (panicked) return skinning::Setting::fear;
+    const std::size_t state = trace_.state[at];
+    if (state < watches_.size() && watches_[state] != 0) return skinning::Setting::audience;
+    return has_company_[agent] != 0 ? skinning::Setting::company : skinning::Setting::alone;
+  }
+
   const world::Trace& trace_;
   std::vector<std::vector<Eigen::Vector3d>> drones_;  ///< [step]
+  std::vector<char> has_company_;                     ///< by agent
+  std::vector<char> watches_;                         ///< by state
 };
 
 }  // namespace
@@ -122,7 +147,7 @@ const Animator::Stay& Animator::stay_at(std::size_t agent, std::size_t step) con
 skinning::Actions Animator::actions_at(std::size_t agent, std::size_t step) const {
   if (!world::is_visible_person(trace_->header.role[agent])) return {};
   if (const auto posture = on_stands_.posture_at(agent, step, trace_->time_s[step])) {
-    return skinning::SpectatorPoses::actions(*posture);
+    return skinning::SpectatorPoses::actions(*posture, appearance_[agent].phase_offset);
   }
   const Stay& stay = stay_at(agent, step);
   return stay.plan.actions_at(static_cast<double>(step - stay.first_step));
@@ -132,7 +157,7 @@ void Animator::pose(std::size_t agent, const world::BetweenSteps& at, double tim
                     PersonInstance& person) const {
   if (const auto posture = on_stands_.posture_at(agent, at.before, time_s)) {
     person.pose = poses_on_stands_.at(*posture, person.appearance.phase_offset, time_s);
-    person.actions = skinning::SpectatorPoses::actions(*posture);
+    person.actions = skinning::SpectatorPoses::actions(*posture, person.appearance.phase_offset);
     return;
   }
   const Stay& stay = stay_at(agent, at.before);

@@ -131,19 +131,4 @@ struct Clip {
   bool cyclic = true;        ///< the first frame follows the last
 };
 
-/// A character library.
-struct Population {
-  std::string content_hash;  ///< SHA-256 of all inputs of the build
-  std::vector<Character> characters;
-  int texture_size = 0;
-  std::vector<Texture> textures;
-  std::vector<Clip> clips;
-  std::uint32_t palettes_per_character = 0;
-  std::vector<Palette> palettes;  ///< [character][palette]
-
-  const Palette& palette(std::size_t character, std::size_t index) const {
-    return palettes[character * palettes_per_character + index];
-  }
-};
-
 }  // namespace throng::skinning

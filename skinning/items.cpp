@@ -13,4 +13,6 @@ std::optional<Grip> find_grip(Carry carry, const Joints& neutral) {
               Bone::chest};
 }
 
+bool has_both_hands(Carry carry) { return carry != Carry::handbag && carry != Carry::umbrella; }
+
 }  // namespace throng::skinning

@@ -31,4 +31,7 @@ struct Grip {
 /// the hand stays upright and the arm swings little).
 std::optional<Grip> find_grip(Carry carry, const Joints& neutral);
 
+/// Whether a person with this item has both hands free.
+bool has_both_hands(Carry carry);
+
 }  // namespace throng::skinning

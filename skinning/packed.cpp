@@ -44,7 +44,7 @@ Palette unpacked(const Joints& joints, const Packed& from) {
     pose.rotation[bone] = q.normalized().toRotationMatrix();
   }
   pose.shift = {from.shift[0], from.shift[1], from.shift[2]};
-  if (!pose.shift.allFinite() || pose.shift.norm() > 10) throw std::out_of_range("shift");
+  if (!pose.shift.allFinite() || pose.shift.norm() > 5) throw std::out_of_range("shift");
   return pose_palette(joints, pose);
 }
 

@@ -6,8 +6,24 @@
 #include <initializer_list>
 
 #include "skinning/character.h"
+#include "skinning/palettes.h"
 
 namespace throng::skinning {
+
+/// A character library.
+struct Population {
+  std::string content_hash;  ///< SHA-256 of all inputs of the build
+  std::vector<Character> characters;
+  int texture_size = 0;
+  std::vector<Texture> textures;
+  std::vector<Clip> clips;
+  std::uint32_t palettes_per_character = 0;
+  Palettes palettes;  ///< [character][palette]
+
+  Palette palette(std::size_t character, std::size_t index) const {
+    return palettes[character * palettes_per_character + index];
+  }
+};
 
 /// Loads a character library. Throws InputError if a file is missing or malformed, naming the file
 /// and a remedy.

@@ -208,8 +208,8 @@ void check_replaceable(const fs::path& folder) {
                     "a folder that is new, empty or holds a character library"});
 }
 
-std::vector<Palette> read_palettes(const fs::path& folder, const std::vector<Joints>& characters,
-                                   std::size_t per_character) {
+Palettes read_palettes(const fs::path& folder, const std::vector<Joints>& characters,
+                       std::size_t per_character) {
   const fs::path path = folder / kPalettesFile;
   const std::string bytes = fs::is_regular_file(path) ? read_file(path) : std::string();
   const std::size_t share = per_character * kPackedBytes;
@@ -217,13 +217,11 @@ std::vector<Palette> read_palettes(const fs::path& folder, const std::vector<Joi
     throw InputError({path.string(), "", fmt::format("{} bytes", bytes.size()),
                       fmt::format("{} bytes of poses{}", characters.size() * share, kRemedy)});
   }
-  std::vector<Palette> palettes;
+  Palettes palettes;
   palettes.reserve(characters.size() * per_character);
   for (std::size_t i = 0; i < characters.size(); ++i) {
     try {
-      const std::vector<Palette> own =
-          unpack(characters[i], std::string_view(bytes).substr(i * share, share));
-      palettes.insert(palettes.end(), own.begin(), own.end());
+      palettes.append(unpack(characters[i], std::string_view(bytes).substr(i * share, share)));
     } catch (const std::out_of_range& error) {
       throw InputError({path.string(), fmt::format("character {}", i),
                         fmt::format("a {} out of range", error.what()),

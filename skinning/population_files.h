@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "skinning/character.h"
+#include "skinning/palettes.h"
 #include "skinning/skeleton.h"
 
 namespace throng::skinning {
@@ -53,8 +54,7 @@ void check_replaceable(const std::filesystem::path& folder);
 
 /// Reads the palettes of all characters, in their order (packed.h); `characters` has their joints.
 /// Throws InputError if the file is missing or does not contain `per_character` poses of each.
-std::vector<Palette> read_palettes(const std::filesystem::path& folder,
-                                   const std::vector<Joints>& characters,
-                                   std::size_t per_character);
+Palettes read_palettes(const std::filesystem::path& folder, const std::vector<Joints>& characters,
+                       std::size_t per_character);
 
 }  // namespace throng::skinning

@@ -46,6 +46,9 @@ inline constexpr std::uint8_t kFollowing = 8;
 /// it: whether the name contains one of the words in docs/trace.md, ignoring case.
 bool implies_lying(std::string_view state_name);
 
+/// The state of people who stand and watch a show, of blueprints.
+inline constexpr std::string_view kWatchState = "Watch";
+
 /// States of people on stands (world/stand.h), the last ones of runs with spectators.
 inline constexpr std::array<std::string_view, 4> kStandStates = {"sitting", "standing", "cheering",
                                                                  "leaving"};

@@ -149,6 +149,7 @@ Sheet draw_people_sheet(const skinning::Population& population, const SheetOptio
   std::vector<SheetRow> rows = portrait_rows(population, options);
   rows.push_back(drone_row(population, options));
   for (SheetRow& row : motion_rows(population, options)) rows.push_back(std::move(row));
+  for (SheetRow& row : act_rows(population, options)) rows.push_back(std::move(row));
   const LevelsApart apart = levels_apart(population, options);
   const std::vector<SheetRow> levels = level_rows(apart, options);
 

@@ -155,6 +155,26 @@ std::vector<SheetRow> portrait_rows(const Population& population, const SheetOpt
   return rows;
 }
 
+std::vector<SheetRow> act_rows(const Population& population, const SheetOptions& options) {
+  constexpr std::size_t kColumns = 10;
+  constexpr double kTurn = 35 * kDegree;
+  const int width = options.width_px / static_cast<int>(kColumns);
+  std::vector<SheetRow> rows;
+  std::size_t shots = 0;
+  for (const skinning::Clip& clip : population.clips) {
+    const bool sits = clip.name.starts_with("sit");
+    if (!sits && !clip.name.starts_with("act_")) continue;
+    if (shots % kColumns == 0) rows.push_back({shots == 0 ? "On the spot" : "", {}});
+    const std::uint32_t character = options.portraits[shots % options.portraits.size()];
+    const skinning::Appearance look = skinning::appearance_as(population, character, options.seed);
+    const Moment moment{clip.name.c_str(), 0, sits ? 0.4 : 0.65};
+    const std::string label = sits ? clip.name : clip.name.substr(4);
+    rows.back().shots.push_back(motion_shot(population, look, moment, kTurn, label, width));
+    ++shots;
+  }
+  return rows;
+}
+
 SheetRow drone_row(const Population& population, const SheetOptions& options) {
   constexpr std::array<double, 3> kHeightsM = {15, 30, 50};
   // The image is the middle of that of a camera with 1920 pixels across 78 degrees.

@@ -35,6 +35,10 @@ SheetRow drone_row(const skinning::Population& population, const SheetOptions& o
 std::vector<SheetRow> motion_rows(const skinning::Population& population,
                                   const SheetOptions& options);
 
+/// Characters of the portraits at what they do on the spot, one of them each: acts and ways of
+/// sitting.
+std::vector<SheetRow> act_rows(const skinning::Population& population, const SheetOptions& options);
+
 /// Characters of the portraits with each level of detail as a character of its own, in this order:
 /// level 0 of the first person, level 1, ..., level 0 of the second, ...
 struct LevelsApart {

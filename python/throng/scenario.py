@@ -165,12 +165,18 @@ class Scenario:
         return self
 
     def group(
-        self, area: Any = None, *, count: int, doing: Literal["leave", "stroll", "wait", "cross"] = "leave", **more: Any
+        self,
+        area: Any = None,
+        *,
+        count: int,
+        doing: Literal["leave", "stroll", "wait", "cross", "watch"] = "leave",
+        **more: Any,
     ) -> Scenario:
         """People who are there from the start, at random on the free ground of an area (default: all of it).
 
-        leave: go to the exit that looks fastest; stroll: from spot to spot; wait: stand, as an audience; cross: to an
-        exit by chance. more is as docs/blueprint.md has it, for example facing={"towards": [0, 5]}.
+        leave: go to the exit that looks fastest; stroll: from spot to spot; wait: stand; watch: stand before
+        a show, clap and cheer; cross: to an exit by chance. more is as docs/blueprint.md has it, for example
+        facing={"towards": [0, 5]}.
         """
         if count < 1:
             raise ScenarioError(f"count: found {count}, expected 1 or more")

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -52,13 +53,17 @@ Buffer make_buffer();
 
 /// A buffer with this immutable content.
 template <typename T>
-Buffer make_buffer(const std::vector<T>& content) {
+Buffer make_buffer(std::span<const T> content) {
   Buffer buffer = make_buffer();
   // GL refuses empty storage.
-  const std::size_t bytes = content.empty() ? sizeof(T) : content.size() * sizeof(T);
+  const std::size_t bytes = content.empty() ? sizeof(T) : content.size_bytes();
   glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(bytes),
                        content.empty() ? nullptr : content.data(), 0);
   return buffer;
+}
+template <typename T>
+Buffer make_buffer(const std::vector<T>& content) {
+  return make_buffer(std::span<const T>(content));
 }
 
 VertexArray make_vertex_array();

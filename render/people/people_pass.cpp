@@ -123,7 +123,7 @@ Packing choose_packing(const QualitySettings& quality) {
 std::uint64_t largest_palettes() {
   GLint texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-  return static_cast<std::uint64_t>(texels) * sizeof(DeviceBone);
+  return static_cast<std::uint64_t>(texels) * sizeof(skinning::PackedBone);
 }
 
 /// A texture's look-ups read whole texels, which a software driver does four times as fast as it

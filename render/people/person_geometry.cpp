@@ -107,9 +107,9 @@ skinning::PoseBlend drawn_pose(const skinning::PoseBlend& pose, std::size_t leve
 
 skinning::Palette blended_palette(const skinning::Population& population,
                                   const PersonInstance& person) {
-  const skinning::Palette& a = population.palette(person.appearance.character, person.pose.a);
+  const skinning::Palette a = population.palette(person.appearance.character, person.pose.a);
   if (person.pose.blend == 0) return a;
-  const skinning::Palette& b = population.palette(person.appearance.character, person.pose.b);
+  const skinning::Palette b = population.palette(person.appearance.character, person.pose.b);
   skinning::Palette blended;
   for (std::size_t bone = 0; bone < blended.size(); ++bone) {
     blended[bone] = (1.0F - person.pose.blend) * a[bone] + person.pose.blend * b[bone];

@@ -4,6 +4,8 @@
 
 #include "base/error.h"
 #include "base/geometry/angle.h"
+#include "skinning/animate/acts.h"
+#include "skinning/animate/bearing.h"
 #include "skinning/animate/gait.h"
 #include "skinning/animate/motion.h"
 #include "skinning/animate/sitting.h"
@@ -28,8 +30,11 @@ float natural_speed(double stride) {
   return static_cast<float>(low);
 }
 
+// Starts and stops are those of plain walking.
 Gait estimate_gait(const std::string& name, double stride) {
-  return {name == "run" || name == "panic", stride, name == "panic", name == "walk_look_up"};
+  const BearingClips* clips = find_bearing(name);
+  if (clips == nullptr) return {false, stride};
+  return {clips->runs, stride, clips->bearing};
 }
 
 float stride_center(const std::string& name, double stride) {
@@ -66,6 +71,15 @@ Figure held(const Walker& walker, const Clip& clip, double share) {
   return look_up(walker, 0, raised, phase);
 }
 
+Figure acting_figure(const Walker& walker, const Act& act, double frame) {
+  const double raised = frame / kActRaisedFrame;
+  if (raised < 1) return act_figure(walker, act, raised, 0);
+  // Calm acts are raised to the middle of their frames.
+  const double first = kActRaisedFrame + (act.cycle_s > 0 ? 0 : 1);
+  const double at = frame < first ? 0.5 : (frame - first) / (kActFrames - 1);
+  return act_figure(walker, act, 1, act.cycle_s > 0 ? at : 2 * at - 1);
+}
+
 // Raised, then one wave.
 Figure cheering_figure(const Walker& walker, const Clip& clip, double share) {
   const double frame = share * (clip.frames - 1);
@@ -81,8 +95,10 @@ Figure standing_figure(const Walker& walker, const Clip& clip, double share) {
   if (clip.name == "turn_30") return turn_on_the_spot(walker, 30 * kDegree, share);
   if (clip.name == "turn_60") return turn_on_the_spot(walker, 60 * kDegree, share);
   if (clip.name == "turn_90") return turn_on_the_spot(walker, 90 * kDegree, share);
-  if (clip.name == "sit") return sit(walker, false, 2 * share - 1);
-  if (clip.name == "sit_forward") return sit(walker, true, 2 * share - 1);
+  if (const Act* act = find_act(clip.name)) {
+    return acting_figure(walker, *act, share * (clip.frames - 1));
+  }
+  if (const auto seat = find_seat(clip.name)) return sit(walker, *seat, 2 * share - 1);
   if (clip.name == "rise") return rise(walker, share);
   if (clip.name == "cheer") return cheering_figure(walker, clip, share);
   return held(walker, clip, share);
@@ -94,6 +110,13 @@ const OwnMotion::Cycle* own_cycle(const OwnMotion& own, const Clip& clip) {
       clip.name == "walk" || clip.name.rfind("start", 0) == 0 || clip.name.rfind("stop", 0) == 0;
   if (walks && own.walk) return &*own.walk;
   return clip.name == "run" && own.run ? &*own.run : nullptr;
+}
+
+void add_strides(const BearingClips& bearing, Catalog& catalog) {
+  for (int i = 0; i < bearing.count; ++i) {
+    catalog.add(std::string(bearing.name), kClipFrames, true,
+                bearing.first_stride + bearing.stride_interval * i);
+  }
 }
 
 bool starts_with(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
@@ -109,18 +132,22 @@ std::vector<Clip> standard_clips() {
   }
   for (const char* name : {"turn_30", "turn_60", "turn_90"}) catalog.add(name, 12);
   for (const char* name : {"fall_forwards", "fall_backwards"}) catalog.add(name, 16, false);
-  for (int i = 0; i < 23; ++i) catalog.add("walk", kClipFrames, true, 0.22 + 0.04 * i);
+  add_strides(*find_bearing("walk"), catalog);
   for (int i = 1; i < 18; i += 2) {
     const double stride = 0.22 + 0.04 * i;
     for (const char* name : {"start_left", "start_right"}) catalog.add(name, 6, false, stride);
     for (const char* name : {"stop_left", "stop_right"}) catalog.add(name, 4, false, stride);
   }
-  for (int i = 0; i < 5; ++i) catalog.add("walk_look_up", kClipFrames, true, 0.46 + 0.12 * i);
-  for (int i = 0; i < 14; ++i) catalog.add("run", kClipFrames, true, 0.84 + 0.07 * i);
-  for (int i = 0; i < 6; ++i) catalog.add("panic", kClipFrames, true, 0.9 + 0.16 * i);
-  for (const char* name : {"sit", "sit_forward"}) catalog.add(name, 13, false);
+  for (const BearingClips& bearing : bearings()) {
+    if (bearing.name != "walk") add_strides(bearing, catalog);
+  }
+  for (const std::string_view name : kSeatedClips) catalog.add(std::string(name), 13, false);
   catalog.add("rise", 9, false);
   catalog.add("cheer", kCheerRaisedFrame + 13, false);
+  for (const Act& act : acts()) {
+    const std::uint32_t gap = act.cycle_s > 0 ? 0 : 1;
+    catalog.add(std::string(act.clip), kActRaisedFrame + gap + kActFrames, false);
+  }
   return std::move(catalog).clips();
 }
 
@@ -144,7 +171,11 @@ std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const Own
       // Ready in the middle, as everybody is.
       const Figure figure = stands_as ? stand_as(walker, own.idle, std::fmod(share + 0.5, 1))
                                       : standing_figure(walker, clip, share);
-      palettes.push_back(grounded(walker, solve(walker, figure), walker.soles));
+      const Act* act = find_act(clip.name);
+      const Pose pose = solve(walker, figure);
+      palettes.push_back(act != nullptr && is_airborne(*act)
+                             ? pose_palette(walker.joints, pose)
+                             : grounded(walker, pose, walker.soles));
     }
     return palettes;
   }

@@ -54,9 +54,11 @@ class Planner {
     double change = running_speed_mps(stature) * (runs_ ? 0.94 : 1.04);
     if (moment.panicked) change *= 0.8;
     runs_ = speed > change;
-    std::string_view clip = "walk";
+    std::string_view clip = pedestrian_.walk;
     if (runs_) {
-      clip = moment.panicked ? "panic" : "run";
+      clip = moment.panicked ? pedestrian_.flight : "run";
+    } else if (moment.panicked) {
+      clip = "walk";
     } else if (moment.gaze == Gaze::ahead) {
       clip = "walk_look_up";
     }

@@ -2,6 +2,7 @@
 // path.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "skinning/animate/figure.h"
@@ -14,8 +15,10 @@ namespace throng::skinning {
 struct Pedestrian {
   double stature_m = 1.75;
   double age_years = 35;
-  double stride = 1;        ///< length of strides relative to the average
-  double phase_offset = 0;  ///< phase of a person who already walks at the start, in [0, 1)
+  double stride = 1;               ///< length of strides relative to the average
+  double phase_offset = 0;         ///< phase of a person who already walks at the start, in [0, 1)
+  std::string_view walk = "walk";  ///< clips by which the person walks
+  std::string_view flight = "panic";  ///< and runs in panic
 };
 
 /// A step: from the position at which one foot stands below the body to that of the other foot.

@@ -44,7 +44,8 @@ double own_phase(Side side, double phase) {
 Arm arm_swing(const Gait& gait, const Manner& manner, double own) {
   const double forward = -wave(own);
   const double swing = manner.arm_swing;
-  if (gait.panics) return {72 - 14 * wave(2 * own + 0.1), 66 + 12 * forward, 0, 12, 52};
+  if (gait.bearing == Bearing::arms_up)
+    return {72 - 14 * wave(2 * own + 0.1), 66 + 12 * forward, 0, 12, 52};
   if (gait.runs) {
     // The faster, the more the elbows are bent.
     const double elbow = std::clamp(62 + 45 * (gait.stride - 0.9), 60.0, 85.0);
@@ -106,11 +107,8 @@ Pose Stride::trunk_at(double phase) const {
   trunk.hips_yaw = -(gait_.runs ? 7.0 : 5.0) * kDegree * vigour * wave(phase);
   trunk.chest_yaw = -1.2 * trunk.hips_yaw;
   trunk.tilt = (gait_.runs ? 4.5 : 3.5) * kDegree * vigour * wave(phase - 0.15);
-  trunk.lean = (gait_.runs ? 7.0 : 2.5) * kDegree + (gait_.panics ? 7 * kDegree : 0);
-  if (gait_.looks_up) {
-    trunk.head_down = -34 * kDegree;
-    trunk.lean -= 3 * kDegree;
-  }
+  trunk.lean = (gait_.runs ? 7.0 : 2.5) * kDegree;
+  bear_trunk(gait_.bearing, phase, trunk);
   pose_trunk(*walker_, trunk, pose);
   // The hips swing over the foot that stands.
   const double sway = (gait_.runs ? 0.006 : 0.012) * std::max(1.4 - 0.4 * swing_, 0.8);
@@ -129,6 +127,7 @@ Figure Stride::at(double phase) const {
         *walker_,
         {arm_swing(gait_, walker_->manner, phase), arm_swing(gait_, walker_->manner, phase + 0.5)},
         figure.pose);
+    bear_arms(*walker_, gait_.bearing, phase, figure.pose);
   }
   for (const Side side : kSides) {
     figure.of(side) = foot_at(side, own_phase(side, phase), figure.pose);

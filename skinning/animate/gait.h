@@ -2,6 +2,7 @@
 // that standing feet stay in place while the body moves over them.
 #pragma once
 
+#include "skinning/animate/bearing.h"
 #include "skinning/animate/figure.h"
 #include "skinning/animate/own_motion.h"
 
@@ -10,9 +11,8 @@ namespace throng::skinning {
 /// A gait.
 struct Gait {
   bool runs = false;
-  double stride = 0.8;    ///< length of a stride (two steps), in statures
-  bool panics = false;    ///< arms up and out, leaning forwards
-  bool looks_up = false;  ///< looks at an object in the sky ahead
+  double stride = 0.8;  ///< length of a stride (two steps), in statures
+  Bearing bearing = Bearing::free;
 };
 
 /// Share of a stride during which a foot is on the ground: Winiarski 2019 (walking), Fukuchi 2017

@@ -1,7 +1,6 @@
 #include "skinning/animate/motion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -89,18 +88,15 @@ const Clip* ClipSet::find(std::string_view name, double stride) const {
 }
 
 const Clip& ClipSet::nearest(std::string_view name, double stride) const {
-  constexpr std::array<std::array<std::string_view, 3>, 4> kInstead = {
-      {{"panic", "run", "walk"},
-       {"run", "walk", "walk"},
-       {"walk_look_up", "walk", "run"},
-       {"walk", "run", "run"}}};
-  const Clip* clip = find(name, stride);
-  for (const auto& names : kInstead) {
-    if (names[0] != name) continue;
-    if (clip == nullptr) clip = find(names[1], stride);
-    if (clip == nullptr) clip = find(names[2], stride);
+  if (const Clip* clip = find(name, stride)) return *clip;
+  const std::string_view kind = name.substr(0, name.find('_'));
+  const bool runs = kind == "panic" || kind == "run";
+  if (!runs && kind != "walk") return clips_->front();
+  for (const std::string_view other :
+       {kind, std::string_view(runs ? "run" : "walk"), std::string_view(runs ? "walk" : "run")}) {
+    if (const Clip* clip = find(other, stride)) return *clip;
   }
-  return clip != nullptr ? *clip : clips_->front();
+  return clips_->front();
 }
 
 }  // namespace throng::skinning

@@ -40,8 +40,8 @@ class ClipSet {
 
   /// The clip with this name whose stride, in statures, is nearest; null if there is none.
   const Clip* find(std::string_view name, double stride = 0) const;
-  /// As find(), with substitutes for missing clips: running for panic, walking for running, any
-  /// clip for standing.
+  /// As find(), with substitutes for missing clips: the plain gait for its variants, running for
+  /// panic, walking for running, any clip for standing.
   const Clip& nearest(std::string_view name, double stride = 0) const;
 
  private:

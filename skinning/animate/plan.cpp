@@ -8,9 +8,11 @@
 #include "base/compute/random.h"
 #include "base/error.h"
 #include "base/geometry/smoothstep.h"
+#include "skinning/animate/bearing.h"
 #include "skinning/animate/footsteps.h"
 #include "skinning/animate/rest.h"
 #include "skinning/animate/standing.h"
+#include "skinning/items.h"
 
 namespace throng::skinning {
 
@@ -159,18 +161,12 @@ struct ClipActions {
   std::string_view prefix;  ///< of the clip's name
   Actions actions;
 };
-/// The first one whose prefix a name has counts.
 constexpr std::array kClipActions = {
-    ClipActions{"idle", Actions(Action::stand)},
     ClipActions{"phone", Actions(Action::stand, Action::use_phone)},
     ClipActions{"look_up", Actions(Action::stand, Action::look_at_drone)},
     ClipActions{"turn_", Actions(Action::turn)},
-    ClipActions{"walk_look_up", Actions(Action::walk, Action::look_at_drone)},
-    ClipActions{"walk", Actions(Action::walk)},
     ClipActions{"start_", Actions(Action::walk)},
     ClipActions{"stop_", Actions(Action::walk)},
-    ClipActions{"run", Actions(Action::run)},
-    ClipActions{"panic", Actions(Action::run, Action::panic)},
 };
 
 /// The actions during a piece of a fall: played forward it is falling, backward getting up, and a
@@ -192,6 +188,8 @@ Actions actions_during(const Piece& piece) {
   if (piece.clip == nullptr) return Actions(piece.by_distance ? Action::walk : Action::stand);
   if (looks_around(piece)) return Actions(Action::stand, Action::look_around);
   if (piece.clip->name.starts_with("fall_")) return fall_actions(piece);
+  if (const Act* act = find_act(piece.clip->name)) return act->actions;
+  if (const BearingClips* clips = find_bearing(piece.clip->name)) return clips->actions;
   for (const ClipActions& known : kClipActions) {
     if (piece.clip->name.starts_with(known.prefix)) return known.actions;
   }
@@ -206,12 +204,19 @@ MotionPlan::MotionPlan(const Population& population, const Appearance& appearanc
   check(appearance.character < population.characters.size(), "the population has the character");
   const Character& character = population.characters[appearance.character];
   const ClipSet clips(population);
-  const Pedestrian pedestrian{character.gait_stature_m(), character.age_years,
-                              static_cast<double>(appearance.amplitude) / appearance.cadence,
-                              appearance.phase_offset};
   Trajectory trajectory(moments, dt_s);
   Random random(key, Stream::motion);
-  RestLayer rest(trajectory, clips, appearance.phase_offset, random, pieces_);
+  Random choice(key, Stream::motion, 2);
+  const bool has_free_hands = has_both_hands(character.carries);
+  const Setting setting = moments.empty() ? Setting::alone : moments.front().setting;
+  const Pedestrian pedestrian{character.gait_stature_m(),
+                              character.age_years,
+                              static_cast<double>(appearance.amplitude) / appearance.cadence,
+                              appearance.phase_offset,
+                              choose_walk(setting, character.age_years, has_free_hands, choice),
+                              choose_flight(has_free_hands, choice)};
+  RestLayer rest(trajectory, clips, {character.age_years, has_free_hands, appearance.phase_offset},
+                 random, pieces_);
   const std::vector<Stretch>& stretches = trajectory.stretches();
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Stretch& stretch = stretches[i];

@@ -76,6 +76,11 @@ void pose_arms(const Walker& walker, const std::array<Arm, 2>& free, Pose& pose)
 }
 
 void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& pose) {
+  hold(walker, side, point, pose, {-0.35F, 0.35F * side_sign(side), -1});
+}
+
+void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& pose,
+          const Eigen::Vector3f& elbow_to) {
   const auto joint = [&](Bone left) { return walker.joints[index_from(on(side, left))]; };
   const Eigen::Vector3f forearm = joint(Bone::left_hand) - joint(Bone::left_forearm);
   // From the wrist to the middle of the palm.
@@ -84,7 +89,6 @@ void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& p
                  (1 + kPalmOfForearm) * forearm, -Eigen::Vector3f::UnitX()};
   const Eigen::Vector3f shoulder =
       pose_joints(walker.joints, pose)[index_from(on(side, Bone::left_upper_arm))];
-  const Eigen::Vector3f elbow_to(-0.35F, 0.35F * side_sign(side), -1);
   const LimbTurn turn = reach(arm, point - shoulder, elbow_to);
   pose.of(on(side, Bone::left_upper_arm)) = turn.upper;
   pose.of(on(side, Bone::left_forearm)) = pose.of(on(side, Bone::left_hand)) = turn.lower;

@@ -38,6 +38,9 @@ void pose_arms(const Walker& walker, const std::array<Arm, 2>& free, Pose& pose)
 /// Moves the center of the palm to a point in model space, with the elbow down and slightly
 /// outward.
 void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& pose);
+/// As above, with the elbow in a direction in model space.
+void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& pose,
+          const Eigen::Vector3f& elbow_to);
 
 /// The free hand, which holds a phone.
 Side phone_hand(const Manner& manner);

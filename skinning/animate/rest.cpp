@@ -45,11 +45,11 @@ Turning choose_turning(const ClipSet& clips, double angle_rad) {
 
 }  // namespace
 
-RestLayer::RestLayer(const Trajectory& trajectory, const ClipSet& clips, double phase_offset,
+RestLayer::RestLayer(const Trajectory& trajectory, const ClipSet& clips, const Rester& person,
                      Random random, std::vector<Piece>& pieces)
     : trajectory_(trajectory),
       clips_(clips),
-      phase_offset_(phase_offset),
+      person_(person),
       random_(random),
       phones_(random_.uniform() < 0.4),
       calm_(random_.uniform(0.7, 1.4)),
@@ -61,7 +61,8 @@ void RestLayer::add(const Clip& clip, double begin, double end, double frame, do
 
 void RestLayer::stand(const Stretch& stretch, bool first, bool last) {
   // Before the first step and after the last one people stand as well, in the middle of something.
-  auto begin = static_cast<double>(stretch.first) - (first ? steps(kAtEaseS * phase_offset_) : 0);
+  auto begin =
+      static_cast<double>(stretch.first) - (first ? steps(kAtEaseS * person_.phase_offset) : 0);
   std::size_t at = stretch.first;
   const std::span<const Moment> moments = trajectory_.moments();
   while (at < stretch.last) {
@@ -159,6 +160,13 @@ double RestLayer::idle_once(double begin, double end) {
     hold(*phone, begin, begin + steps(phone_s), 0.9);
     return begin + steps(phone_s);
   }
+  const Setting setting = trajectory_.moments()[moment_at(begin)].setting;
+  const double act_s = random_.uniform(5, 16);
+  const Act* act = left_s > act_s ? choose_act(setting) : nullptr;
+  if (act != nullptr) {
+    do_act(*act, *clips_.find(act->clip), begin, begin + steps(act_s));
+    return begin + steps(act_s);
+  }
   const double ease_s = random_.uniform(0.4, 0.9) * kAtEaseS;
   const double end_of_ease = left_s < 1.4 * ease_s ? until : begin + steps(ease_s);
   stand_at_ease(begin, end_of_ease);
@@ -172,11 +180,11 @@ void RestLayer::stand_at_ease(double begin, double end) {
   const Clip& even = clips_.nearest("idle");
   const Clip* side = clips_.find(draw < 0.45 ? "idle_left" : "idle_right");
   if (draw > 0.9 || side == nullptr || end - begin < steps(4 * kShiftS)) {
-    look_about(even, begin, end);
+    look_about_ready(even, begin, end);
     return;
   }
   shift_weight(even, *side, begin, begin + steps(kShiftS));
-  look_about(*side, begin + steps(kShiftS), end - steps(kShiftS));
+  look_about_ready(*side, begin + steps(kShiftS), end - steps(kShiftS));
   shift_weight(*side, even, end - steps(kShiftS), end);
 }
 
@@ -185,25 +193,72 @@ void RestLayer::shift_weight(const Clip& from, const Clip& to, double begin, dou
                      static_cast<double>(to.first + ready_frame(to)), nullptr, false, 1});
 }
 
+void RestLayer::look_about_ready(const Clip& clip, double begin, double end) {
+  look_about(clip, ready_frame(clip), ready_frame(clip), begin, end);
+}
+
 // Ahead, and now and then to a side.
-void RestLayer::look_about(const Clip& clip, double begin, double end) {
-  const double middle = ready_frame(clip);
+void RestLayer::look_about(const Clip& clip, double middle, double reach, double begin,
+                           double end) {
   double frame = middle;
   while (end - begin > 1e-9) {
     const double dwell_s = calm_ * random_.uniform(1.8, 5.5);
-    const double reach = random_.uniform() < 0.4 ? 0.9 : 0.35;
-    const double drawn = middle * (1 + random_.uniform(-reach, reach));
+    const double share = random_.uniform() < 0.4 ? 0.9 : 0.35;
+    const double drawn = middle + reach * random_.uniform(-share, share);
     const bool ends = end - begin < steps(1.6 * dwell_s);
     const double until = ends ? end : begin + steps(dwell_s);
     const double to = ends ? middle : drawn;
     const double s = (until - begin) * trajectory_.dt_s();
-    const double turn_s = 0.5 + 0.8 * std::abs(to - frame) / std::max(middle, 1.0);
+    const double turn_s = 0.5 + 0.8 * std::abs(to - frame) / std::max(reach, 1.0);
     add(clip, begin, until, frame, to);
     pieces_.back().moving = static_cast<float>(std::min(turn_s / s, 1.0));
-    pieces_.back().sway = static_cast<float>(middle * std::min(0.08 * s, 0.25));
+    pieces_.back().sway = static_cast<float>(reach * std::min(0.08 * s, 0.25));
     frame = to;
     begin = until;
   }
+}
+
+const Act* RestLayer::choose_act(Setting setting) {
+  // Shares of the time between looks at phones, by setting.
+  constexpr std::array<double, 4> kActs = {0.4, 0.62, 0.66, 0.75};
+  const auto where = static_cast<std::size_t>(setting);
+  const bool acts_now = random_.uniform() < kActs.at(where);
+  const double draw = random_.uniform();
+  if (!acts_now) return nullptr;
+  const auto likely = [&](const Act& act) {
+    const bool suits = (act.hands < 2 || person_.has_free_hands) &&
+                       person_.age_years >= act.youngest && person_.age_years < act.oldest &&
+                       clips_.find(act.clip) != nullptr;
+    return suits ? act.likely.at(where) : 0;
+  };
+  double all = 0;
+  for (const Act& act : acts()) all += likely(act);
+  double left = draw * all;
+  for (const Act& act : acts()) {
+    left -= likely(act);
+    if (left < 0) return &act;
+  }
+  return nullptr;
+}
+
+// Raised, done for as long as there is time, and lowered.
+void RestLayer::do_act(const Act& act, const Clip& clip, double begin, double end) {
+  const double raising = steps(act.actions.has(Action::stand) ? 0.7 : 1.1);
+  const double from = begin + raising;
+  const double to = end - raising;
+  add(clip, begin, from, 0, kActRaisedFrame);
+  if (act.cycle_s > 0) {
+    const double wanted = (to - from) / steps(act.cycle_s * random_.uniform(0.8, 1.25));
+    const int times = std::max(static_cast<int>(std::lround(wanted)), 1);
+    for (int i = 0; i < times; ++i) {
+      add(clip, from + (to - from) * i / times, from + (to - from) * (i + 1) / times,
+          kActRaisedFrame, kActRaisedFrame + kActFrames - 1);
+    }
+  } else {
+    constexpr double kReach = (kActFrames - 1) / 2.0;
+    look_about(clip, kActRaisedFrame + 1 + kReach, kReach, from, to);
+  }
+  add(clip, to, end, kActRaisedFrame, 0);
 }
 
 // Raised in the first half of the clip, held for as long as there is time, and lowered.

@@ -2,7 +2,10 @@
 // a sitter's on the seat, and of a standing person's who stands kRiseAheadM ahead of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "skinning/animate/figure.h"
 
@@ -12,9 +15,18 @@ namespace throng::skinning {
 inline constexpr double kSeatM = 0.44;
 inline constexpr double kRiseAheadM = 0.3;
 
-/// Sitting, looking to the side from -1 (right) to 1 (left); upright with hands on the thighs, or
-/// leaning forward (`forward`) with forearms on them.
-Figure sit(const Walker& walker, bool forward, double aside);
+/// Ways of sitting: upright with hands on the thighs, leaning forward with forearms on them, with
+/// one leg over the other, leaning back, and leaning forward over a phone.
+enum class Seated : std::uint8_t { upright, forward, crossed, back, phone };
+/// Their clips.
+inline constexpr std::array<std::string_view, 5> kSeatedClips = {
+    "sit", "sit_forward", "sit_crossed", "sit_back", "sit_phone"};
+
+/// The way of sitting of a clip; nothing for other clips.
+std::optional<Seated> find_seat(std::string_view clip);
+
+/// Sitting, looking to the side from -1 (right) to 1 (left).
+Figure sit(const Walker& walker, Seated seated, double aside);
 
 /// Getting up, from sit() ahead (share 0) to ready() (share 1).
 Figure rise(const Walker& walker, double share);

@@ -1,6 +1,7 @@
 #include "skinning/animate/spectator_pose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/geometry/smoothstep.h"
@@ -17,7 +18,6 @@ constexpr double kArmsS = 0.5;
 constexpr double kSettleS = 0.6;  // from sitting upright to leaning forward
 constexpr double kLookS = 1;      // until somebody looks about
 constexpr double kWaveS = 1.3;
-constexpr double kLeanForward = 0.4;  // share of people
 
 /// From 0 to 1 within `ramp_s` from `from_s` after the last change on, and back before the next.
 double kept(const PostureTime& posture, double from_s, double ramp_s) {
@@ -35,21 +35,26 @@ PoseBlend looking(const Clip& clip, double share, double phase, double time_s) {
   return blend_frame(clip, middle * (1 + (share > 0 ? share * look(phase, time_s) : 0)));
 }
 
-/// A share of people, by a digit of their phase that nothing else uses.
-bool leans_forward(double phase) {
+/// How a person sits, by a digit of the phase that nothing else uses: most lean forward or sit
+/// upright. Estimates.
+std::size_t choose_seated(double phase) {
+  constexpr std::array<double, kSeatedClips.size()> kUpTo = {0.34, 0.58, 0.74, 0.88, 1};
   const double digits = 97 * phase;
-  return digits - std::floor(digits) < kLeanForward;
+  const double draw = digits - std::floor(digits);
+  return static_cast<std::size_t>(std::upper_bound(kUpTo.begin(), kUpTo.end() - 1, draw) -
+                                  kUpTo.begin());
 }
 
 }  // namespace
 
 SpectatorPoses::SpectatorPoses(const Population& population)
     : clips_(population),
-      sit_(clips_.find("sit")),
-      sit_forward_(clips_.find("sit_forward")),
       rise_(clips_.find("rise")),
       cheer_(clips_.find("cheer")),
-      idle_(&clips_.nearest("idle")) {}
+      idle_(&clips_.nearest("idle")) {
+  std::transform(kSeatedClips.begin(), kSeatedClips.end(), seated_.begin(),
+                 [&](std::string_view name) { return clips_.find(name); });
+}
 
 PoseBlend SpectatorPoses::seated(const PostureTime& posture, double phase, double time_s) const {
   const bool sits_down = posture.before != StandPosture::sitting;
@@ -59,16 +64,18 @@ PoseBlend SpectatorPoses::seated(const PostureTime& posture, double phase, doubl
   }
   const double from_s = sits_down ? down_s : -10;
   const double looks = kept(posture, from_s + kSettleS, kLookS);
-  if (!leans_forward(phase) || sit_forward_ == nullptr) return looking(*sit_, looks, phase, time_s);
+  const Clip* sit = seated_.front();
+  const Clip* settled = seated_.at(choose_seated(phase));
+  if (settled == nullptr || settled == sit) return looking(*sit, looks, phase, time_s);
   const double leans = std::min(smoothstep((posture.since_s - from_s) / kSettleS),
                                 smoothstep(posture.until_s / kSettleS));
   if (leans < 1) {
-    return {sit_->first + ready_frame(*sit_), sit_forward_->first + ready_frame(*sit_forward_),
+    return {sit->first + ready_frame(*sit), settled->first + ready_frame(*settled),
             static_cast<float>(leans)};
   }
   const double until_s = posture.until_s - kSettleS;
   const PostureTime inner{posture.now, posture.before, posture.since_s, until_s};
-  return looking(*sit_forward_, kept(inner, from_s + kSettleS, kLookS), phase, time_s);
+  return looking(*settled, kept(inner, from_s + kSettleS, kLookS), phase, time_s);
 }
 
 PoseBlend SpectatorPoses::upright(const PostureTime& posture, double phase, double time_s) const {
@@ -96,13 +103,19 @@ PoseBlend SpectatorPoses::upright(const PostureTime& posture, double phase, doub
 }
 
 PoseBlend SpectatorPoses::at(const PostureTime& posture, double phase, double time_s) const {
-  const bool can_sit = sit_ != nullptr && rise_ != nullptr;
+  const bool can_sit = seated_.front() != nullptr && rise_ != nullptr;
   return posture.now == StandPosture::sitting && can_sit ? seated(posture, phase, time_s)
                                                          : upright(posture, phase, time_s);
 }
 
-Actions SpectatorPoses::actions(const PostureTime& posture) {
-  if (posture.now == StandPosture::sitting) return Actions(Action::sit);
+Actions SpectatorPoses::actions(const PostureTime& posture, double phase) {
+  if (posture.now == StandPosture::sitting) {
+    const bool is_settled =
+        posture.before == StandPosture::sitting || posture.since_s >= kRiseS + kSettleS;
+    const bool has_phone = is_settled && posture.until_s >= kSettleS &&
+                           kSeatedClips.at(choose_seated(phase)) == "sit_phone";
+    return has_phone ? Actions(Action::sit, Action::use_phone) : Actions(Action::sit);
+  }
   if (posture.now == StandPosture::standing) return Actions(Action::stand);
   return Actions(Action::stand, Action::cheer);
 }

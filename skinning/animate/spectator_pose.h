@@ -1,11 +1,13 @@
 // Poses of people on a stand from what they do now and did before, without a plan.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
 #include "skinning/animate/action.h"
 #include "skinning/animate/motion.h"
+#include "skinning/animate/sitting.h"
 #include "skinning/population.h"
 
 namespace throng::skinning {
@@ -30,16 +32,15 @@ class SpectatorPoses {
   /// The pose of a person with this phase (0 to 1), which tells people apart. Continuous within a
   /// person's time, if changes are known beforehand.
   PoseBlend at(const PostureTime& posture, double phase, double time_s) const;
-  /// The actions to which the pose belongs.
-  static Actions actions(const PostureTime& posture);
+  /// The actions to which the pose of a person with this phase belongs.
+  static Actions actions(const PostureTime& posture, double phase);
 
  private:
   PoseBlend seated(const PostureTime& posture, double phase, double time_s) const;
   PoseBlend upright(const PostureTime& posture, double phase, double time_s) const;
 
   ClipSet clips_;
-  const Clip* sit_;
-  const Clip* sit_forward_;
+  std::array<const Clip*, kSeatedClips.size()> seated_{};
   const Clip* rise_;
   const Clip* cheer_;
   const Clip* idle_;

@@ -7,7 +7,6 @@
 
 #include "base/geometry/angle.h"
 #include "base/geometry/smoothstep.h"
-#include "skinning/animate/posture.h"
 
 namespace throng::skinning {
 
@@ -15,16 +14,15 @@ namespace {
 
 double sine(double phase) { return std::sin(2 * std::numbers::pi * phase); }
 
-// Flat feet where they are at rest, and hips as high as slightly bent knees carry them.
-void put_feet(const Walker& walker, Figure& figure) {
-  constexpr double kKnee = 7 * kDegree;
+// Flat feet where they are at rest, and hips as high as knees that are bent by this carry them.
+void put_feet(const Walker& walker, double knee_rad, Figure& figure) {
   double height = 1e3;
   figure.pose.shift.z() = 0;
   for (const Side side : kSides) {
     Foot& foot = figure.of(side);
     foot = standing_foot(walker, side, walker.joints[index_from(on(side, Bone::left_toe))].x(), 0);
     const Eigen::Vector3f hip = hip_position(walker, figure.pose, side);
-    const double chord = chord_m(find_leg(walker, side), kKnee);
+    const double chord = chord_m(find_leg(walker, side), knee_rad);
     const double across = (hip - foot.ankle).head<2>().norm();
     height = std::min(height, foot.ankle.z() - hip.z() +
                                   std::sqrt(std::max(chord * chord - across * across, 0.01)));
@@ -38,13 +36,9 @@ std::array<Arm, 2> hanging_arms(const Manner& manner, double breath) {
 }
 
 Figure standing(const Walker& walker, Trunk trunk, double breath, double sway_m) {
-  Figure figure;
+  constexpr double kKnee = 7 * kDegree;
   trunk.lean += (1.0 + 0.4 * breath) * kDegree;
-  pose_trunk(walker, trunk, figure.pose);
-  pose_arms(walker, hanging_arms(walker.manner, breath), figure.pose);
-  figure.pose.shift.y() = static_cast<float>(sway_m);
-  put_feet(walker, figure);
-  return figure;
+  return upright(walker, trunk, hanging_arms(walker.manner, breath), sway_m, kKnee);
 }
 
 // A foot moving from its position in another figure.
@@ -146,6 +140,16 @@ std::vector<Key> fall_on_the_back(const Walker& walker) {
 }
 
 }  // namespace
+
+Figure upright(const Walker& walker, const Trunk& trunk, const std::array<Arm, 2>& arms,
+               double aside_m, double knee_rad) {
+  Figure figure;
+  pose_trunk(walker, trunk, figure.pose);
+  pose_arms(walker, arms, figure.pose);
+  figure.pose.shift.y() = static_cast<float>(aside_m);
+  put_feet(walker, knee_rad, figure);
+  return figure;
+}
 
 Figure ready(const Walker& walker) { return stand(walker, 0, 0); }
 

@@ -3,11 +3,17 @@
 #pragma once
 
 #include "skinning/animate/gait.h"
+#include "skinning/animate/posture.h"
 
 namespace throng::skinning {
 
 /// The stance at the start and the end of every clip of standing, which joins them.
 Figure ready(const Walker& walker);
+
+/// Standing upright on flat feet at rest, the hips `aside_m` to the left, the knees of the
+/// straighter leg bent by `knee_rad`.
+Figure upright(const Walker& walker, const Trunk& trunk, const std::array<Arm, 2>& arms,
+               double aside_m, double knee_rad);
 
 /// Standing at ease: `weight` from -1 (on the right leg) to 1 (on the left one), looking to the
 /// side from -1 (right) to 1 (left); ready() if both are 0.

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "skinning/animate/acts.h"
+
 namespace throng::skinning {
 
 /// Direction of an object in the sky that attracts attention.
@@ -20,6 +22,7 @@ struct Moment {
   bool panicked = false;
   bool down = false;  ///< cannot stand
   Gaze gaze = Gaze::none;
+  Setting setting = Setting::alone;
 };
 
 /// Activity of an agent over a stretch.

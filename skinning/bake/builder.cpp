@@ -13,6 +13,7 @@
 #include "base/files/files.h"
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
+#include "skinning/animate/bearing.h"
 #include "skinning/animate/clips.h"
 #include "skinning/bake/extent.h"
 #include "skinning/bake/hull.h"
@@ -35,7 +36,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 26;
+constexpr int kBuilderVersion = 27;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -126,16 +127,14 @@ std::map<std::string, int> number_textures(const DressedPerson& dressed) {
 }
 
 // Adds the frames of a clip on which levels of detail are fitted: all of falls, in which bodies
-// bend most, many of fast strides, and some of the others, which are alike.
+// bend most, some of fast strides and of what people do on the spot, and few of the others, which
+// are alike.
 void add_telling_poses(const Clip& clip, const std::vector<Palette>& palettes,
                        std::vector<Palette>& poses) {
-  const bool is_fast = clip.name == "run" || clip.name == "panic";
-  // Levels of detail stay those of people who walk.
-  const bool is_on_stand = clip.name == "sit" || clip.name == "sit_forward" ||
-                           clip.name == "rise" || clip.name == "cheer";
-  if (is_on_stand) return;
+  const bool is_telling = clip.stride == 0 || find_bearing(clip.name) == nullptr ||
+                          find_bearing(clip.name)->runs;
   // No divisors of the frames of a stride.
-  const std::size_t step = clip.name.starts_with("fall") ? 1 : is_fast ? 3 : 7;
+  const std::size_t step = clip.name.starts_with("fall") ? 1 : is_telling ? 7 : 13;
   for (std::size_t frame = 0; frame < palettes.size(); ++frame) {
     if ((clip.first + frame) % step == 0) poses.push_back(palettes[frame]);
   }

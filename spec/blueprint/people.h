@@ -15,10 +15,14 @@ namespace throng::scenarios {
 /// Activity of a group of people.
 enum class Doing {
   stroll,  ///< walk from spot to spot, with a pause at each
-  wait,    ///< stand, as an audience
+  wait,    ///< stand
   cross,   ///< leave by an exit sampled with probability proportional to its width
-  leave    ///< leave by the exit that appears fastest
+  leave,   ///< leave by the exit that appears fastest
+  watch    ///< stand and watch a show: clap, cheer, film, dance
 };
+
+/// Whether people who do this stand where they are and may face a direction.
+constexpr bool stays(Doing doing) { return doing == Doing::wait || doing == Doing::watch; }
 
 /// Orientation of waiting people.
 struct Facing {

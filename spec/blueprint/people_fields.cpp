@@ -27,15 +27,16 @@ constexpr double kMaxDurationS = 86'400;
 constexpr SampledLimits kFreeSpeedMps = {0.1, 3, 0.19};  // Weidmann 1993: 0.26 of 1.34
 constexpr SampledLimits kEvacuationSpeedMps = {0.1, 3, 0.125};
 constexpr SampledLimits kPreMovementS = {0, 3600, 0};
-constexpr std::array<std::string_view, 4> kDoings = {"stroll", "wait", "cross", "leave"};
+constexpr std::array<std::string_view, 5> kDoings = {"stroll", "wait", "cross", "leave", "watch"};
 
 template <typename Part>
 void add_doing(FieldTable<Part>& table) {
   table
-      .add_word("doing", "", kDoings, at(&Part::doing),
-                "Activity: stroll (from spot to spot, with pauses), wait (stand, as an audience), "
-                "cross (to an exit by chance, with a probability in proportion to its width) or "
-                "leave (by the exit that looks fastest).")
+      .add_word(
+          "doing", "", kDoings, at(&Part::doing),
+          "Activity: stroll (from spot to spot, with pauses), wait (stand), cross (to an exit by "
+          "chance, with a probability in proportion to its width), leave (by the exit that "
+          "looks fastest) or watch (stand before a show: clap, cheer, film, dance).")
       .required();
 }
 
@@ -95,8 +96,9 @@ void check_groups(const People& people, const json& list, const FieldLocation& p
   for (std::size_t i = 0; i < list.size(); ++i) {
     const FieldLocation item = place.below(i);
     if (!world::has_valid(list[i], "doing", item) || !list[i].contains("facing")) continue;
-    if (people.groups[i].doing == Doing::wait) continue;
-    item.below("facing").reject(describe(list[i]["facing"]), "a group that is doing \"wait\"");
+    if (stays(people.groups[i].doing)) continue;
+    item.below("facing").reject(describe(list[i]["facing"]),
+                                "a group that is doing \"wait\" or \"watch\"");
   }
 }
 

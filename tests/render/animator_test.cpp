@@ -134,8 +134,10 @@ class AnimatorWithClipsTest : public AnimatorTest {
   void add_clip(const char* name, std::uint32_t frames) {
     people_.clips.push_back({name, 0, people_.palettes_per_character, frames, 0, 0, false});
     people_.palettes_per_character += frames;
-    const skinning::Palette palette = people_.palettes.front();
-    people_.palettes.assign(people_.characters.size() * people_.palettes_per_character, palette);
+    const skinning::Palette palette = people_.palettes[0];
+    while (people_.palettes.size() < people_.characters.size() * people_.palettes_per_character) {
+      people_.palettes.push_back(palette);
+    }
   }
   std::string find_clip(const Animator& animator, double time_s, std::size_t person) {
     const std::uint32_t palette = animator.scene_at(time_s, 0).people[person].pose.a;

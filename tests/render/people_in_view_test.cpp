@@ -101,8 +101,8 @@ Misfit measure_misfit(const skinning::Population& people, const PersonInstance& 
                       const PersonInView& truth) {
   const skinning::Character& character = people.characters[person.appearance.character];
   const skinning::PoseBlend& pose = person.pose;
-  const skinning::Palette& a = people.palette(person.appearance.character, pose.a);
-  const skinning::Palette& b = people.palette(person.appearance.character, pose.b);
+  const skinning::Palette a = people.palette(person.appearance.character, pose.a);
+  const skinning::Palette b = people.palette(person.appearance.character, pose.b);
   const Eigen::AngleAxisd back(-static_cast<double>(truth.yaw_rad), Eigen::Vector3d::UnitZ());
   const Eigen::AngleAxisd turned(static_cast<double>(person.yaw_rad), Eigen::Vector3d::UnitZ());
   const Eigen::Array3d half = 0.5 * truth.box_size.cast<double>();

@@ -131,8 +131,8 @@ TEST_F(OnAStand, BodiesMoveSmoothlyBetweenPostures) {
   const Animator animator(trace, people_, {}, scenario_.stands);
   const auto joints = [&](double time_s) {
     const PersonInstance person = animator.scene_at(time_s, 0).people.front();
-    const skinning::Palette& a = people_.palette(person.appearance.character, person.pose.a);
-    const skinning::Palette& b = people_.palette(person.appearance.character, person.pose.b);
+    const skinning::Palette a = people_.palette(person.appearance.character, person.pose.a);
+    const skinning::Palette b = people_.palette(person.appearance.character, person.pose.b);
     Eigen::Matrix<float, 3, skinning::kBoneCount> places;
     const skinning::Character& body = people_.characters[person.appearance.character];
     for (int bone = 0; bone < skinning::kBoneCount; ++bone) {

@@ -29,12 +29,16 @@ float lowest_point(const std::vector<Vertex>& vertices, const Palette& palette) 
   return lowest;
 }
 
+bool leaves_the_ground(const Clip& clip) {
+  return clip.name == "run" || clip.name.starts_with("panic");
+}
+
 TEST(Gait, EveryClipIsFiniteAndFeetStandOnTheGround) {
   const Walker walker = made_up_walker();
   for (const Clip& clip : standard_clips()) {
     const std::vector<Palette> palettes = bake_clip(walker, clip);
     ASSERT_EQ(palettes.size(), clip.frames);
-    const bool runs = clip.name == "run" || clip.name == "panic";
+    const bool runs = leaves_the_ground(clip) || clip.name == "act_hop";
     for (const Palette& palette : palettes) {
       const float lowest = lowest_point(walker.body, palette);
       EXPECT_GT(lowest, -0.02F) << clip.name << " " << clip.stride;
@@ -129,8 +133,7 @@ TEST(Gait, RunnersFlyTwiceAStrideAndWalkersNever) {
       const bool flew = lowest_point(walker.soles, palettes[before]) > 0.008F;
       flights += flies && !flew ? 1 : 0;
     }
-    const bool runs = clip.name == "run" || clip.name == "panic";
-    EXPECT_EQ(flights, runs ? 2 : 0) << clip.name << " " << clip.stride;
+    EXPECT_EQ(flights, leaves_the_ground(clip) ? 2 : 0) << clip.name << " " << clip.stride;
   }
 }
 

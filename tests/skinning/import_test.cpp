@@ -151,7 +151,7 @@ TEST_P(FormatTest, BringsItsOwnWalk) {
   for (const Clip& clip : people.clips) {
     if (clip.name != "walk" && clip.name != "run") continue;
     for (std::uint32_t frame = 0; frame < clip.frames; frame += 5) {
-      const Palette& palette = people.palette(0, clip.first + frame);
+      const Palette palette = people.palette(0, clip.first + frame);
       const float height_m = skin(hand, palette, palette, 0).z();
       if (clip.name == "walk") {
         EXPECT_GT(height_m, 1.5F) << clip.stride;
@@ -301,8 +301,10 @@ TEST_F(ImportTest, ClipsMayComeFromAnotherFile) {
   // The same motion from either source.
   float apart_m = 0;
   for (std::size_t i = 0; i < own.palettes.size(); ++i) {
+    const Palette a = own.palettes[i];
+    const Palette b = people.palettes[i];
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-      apart_m = std::max(apart_m, (own.palettes[i][bone] - people.palettes[i][bone]).norm());
+      apart_m = std::max(apart_m, (a[bone] - b[bone]).norm());
     }
   }
   EXPECT_LT(apart_m, 0.02F);

@@ -84,7 +84,7 @@ TEST_F(LevelExtentsTest, AreThoseOfTheFinestLevels) {
     }
     std::array<float, kDrawnLevels> off_m{};
     for (std::size_t i = person % 4; i < frames.size(); i += 4) {  // all of them within four people
-      const Palette& palette = people_->palette(person, frames[i]);
+      const Palette palette = people_->palette(person, frames[i]);
       const Eigen::VectorXf expected =
           reach(finest, palette, all).cwiseMax(reach(bodies[1], palette, all));
       for (std::size_t level = 0; level < kDrawnLevels; ++level) {

@@ -68,6 +68,8 @@ TEST(Clips, AnotherTakesThePlaceOfAMissingOne) {
   population.clips = {{"stand there", 0, 0, 1}, {"walk", 1, 1, 8, 0.8F}};
   const ClipSet clips(population);
   EXPECT_EQ(clips.nearest("panic", 1.2).name, "walk");
+  EXPECT_EQ(clips.nearest("panic_cover", 1.2).name, "walk");
+  EXPECT_EQ(clips.nearest("walk_talk", 0.8).name, "walk");
   EXPECT_EQ(clips.nearest("idle").name, "stand there");
   EXPECT_EQ(clips.find("phone"), nullptr);
 }

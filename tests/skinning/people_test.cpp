@@ -246,7 +246,7 @@ TEST_F(PeopleTest, EveryFrameIsOnTheGroundAndKeepsTheBodyTogether) {
       const bool flies = clip.name == "run" || clip.name == "panic";
       const bool falls = clip.name.starts_with("fall");
       for (std::uint32_t frame = clip.first; frame < clip.first + clip.frames; frame += 3) {
-        const Palette& palette = people_->palette(i, frame);
+        const Palette palette = people_->palette(i, frame);
         float lowest = 1;
         for (const Vertex* vertex : soles) {
           lowest = std::min(lowest, skin(*vertex, palette, palette, 0).z());
@@ -274,7 +274,7 @@ TEST_F(PeopleTest, FallenPeopleLieFlat) {
     for (const char* name : {"fall_forwards", "fall_backwards"}) {
       const Clip* clip = clips.find(name);
       ASSERT_NE(clip, nullptr);
-      const Palette& palette = people_->palette(i, clip->first + clip->frames - 1);
+      const Palette palette = people_->palette(i, clip->first + clip->frames - 1);
       float lowest = 1;
       std::vector<float> heights;
       // A backpack is pressed into the ground, which hides that.
@@ -292,8 +292,8 @@ TEST_F(PeopleTest, FallenPeopleLieFlat) {
 TEST_F(PeopleTest, BlendingHalfwayLiesBetweenTheFrames) {
   const Character& character = people_->characters.front();
   const PoseBlend pose = pose_at(*people_, 0.3, 1.35, 0);
-  const Palette& a = people_->palette(0, pose.a);
-  const Palette& b = people_->palette(0, pose.b);
+  const Palette a = people_->palette(0, pose.a);
+  const Palette b = people_->palette(0, pose.b);
   for (const Vertex& vertex : character.levels.back().vertices) {
     const Eigen::Vector3f middle = 0.5F * (skin(vertex, a, b, 0) + skin(vertex, a, b, 1));
     EXPECT_LT((skin(vertex, a, b, 0.5F) - middle).norm(), 1e-5F);

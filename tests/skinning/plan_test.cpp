@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 #include <vector>
@@ -117,13 +118,13 @@ TEST(Plan, ActionsAreThoseOfTheMotion) {
       straight_trajectory(speeds({{60, 0.0}, {60, 1.3}, {60, 3.2}, {60, 0.0}}), kDtS);
   const MotionPlan plan = plan_for(moments);
   EXPECT_TRUE(plan.actions_at(30).has(Action::stand));
-  EXPECT_EQ(plan.actions_at(90), Actions(Action::walk));
+  EXPECT_TRUE(plan.actions_at(90).has(Action::walk));
   EXPECT_EQ(plan.actions_at(150), Actions(Action::run));
   EXPECT_TRUE(plan.actions_at(230).has(Action::stand));
   for (std::size_t step = 100; step < moments.size(); ++step) moments[step].down = true;
   moments.resize(160);
   const MotionPlan falls = plan_for(moments);
-  EXPECT_EQ(falls.actions_at(95), Actions(Action::walk));
+  EXPECT_TRUE(falls.actions_at(95).has(Action::walk));
   EXPECT_EQ(falls.actions_at(102), Actions(Action::fall));
   EXPECT_EQ(falls.actions_at(150), Actions(Action::lie));
 }
@@ -203,10 +204,15 @@ TEST(Plan, StandsWalksRunsAndPanics) {
   for (std::size_t step = 150; step < moments.size(); ++step) moments[step].panicked = true;
   const MotionPlan plan = plan_for(moments);
   EXPECT_NE(clip_at(plan, 10), "walk");
-  EXPECT_EQ(clip_at(plan, 60), "walk");
+  EXPECT_TRUE(clip_at(plan, 60).starts_with("walk")) << clip_at(plan, 60);
   EXPECT_EQ(clip_at(plan, 120), "run");
-  EXPECT_EQ(clip_at(plan, 180), "panic");
-  EXPECT_NE(clip_at(plan, 240), "panic");
+  EXPECT_FALSE(clip_at(plan, 240).starts_with("panic"));
+  // Everybody flees in one way, and the ways differ.
+  std::map<std::string, int> flights;
+  for (std::uint64_t key = 0; key < 200; ++key) ++flights[clip_at(plan_person(key, moments), 180)];
+  for (const char* name : {"panic", "panic_cover", "panic_look_back", "run"}) {
+    EXPECT_GT(flights[name], 16) << name;
+  }
 }
 
 TEST(Plan, StoppedPeopleStandOnBothFeet) {
@@ -375,8 +381,9 @@ TEST(Plan, StandingPeopleMoveCalmlyOnFeetThatStay) {
       Eigen::Vector3f before = placed(two_people(), 0, plan, moments, 0, vertex);
       for (double step = kFrame; step <= 600; step += kFrame) {
         const Eigen::Vector3f now = placed(two_people(), 0, plan, moments, step, vertex);
-        const bool raises = clip_at(plan, step) == "phone";
-        if (!raises) worst_m = std::max<double>(worst_m, (now - before).norm());
+        const std::string clip = clip_at(plan, step);
+        const bool acts = clip == "phone" || clip.starts_with("act_");
+        if (!acts) worst_m = std::max<double>(worst_m, (now - before).norm());
         before = now;
       }
     }

@@ -58,7 +58,7 @@ inline Population make_population(const std::vector<Walker>& walkers) {
     character.age_years = static_cast<float>(walker.manner.age_years);
     for (const Clip& clip : population.clips) {
       const std::vector<Palette> palettes = bake_clip(walker, clip);
-      population.palettes.insert(population.palettes.end(), palettes.begin(), palettes.end());
+      population.palettes.append(palettes);
     }
   }
   return population;

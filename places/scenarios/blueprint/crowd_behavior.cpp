@@ -12,6 +12,7 @@
 #include "crowd/description/builder.h"
 #include "places/scenarios/blueprint/blocked.h"
 #include "places/scenarios/blueprint/people.h"
+#include "world/trace.h"
 
 namespace throng::scenarios {
 
@@ -136,12 +137,13 @@ class Everyday {
       behavior.add_state("Stroll", {describe::select_goal("random", kSpotsSet), walk()});
       behavior.add_state("Pause", {describe::select_own_place(), stay()});
     }
-    if (doing_.contains(Doing::wait)) {
+    for (const Doing doing : {Doing::wait, Doing::watch}) {
+      if (!doing_.contains(doing)) continue;
       const std::vector<Node> waiting = {describe::select_own_place(), stay()};
       if (final_wait_) {
-        behavior.add_final_state("Wait", waiting);
+        behavior.add_final_state(state_name(doing), waiting);
       } else {
-        behavior.add_state("Wait", waiting);
+        behavior.add_state(state_name(doing), waiting);
       }
     }
     if (doing_.contains(Doing::cross)) {
@@ -356,6 +358,8 @@ std::string state_name(Doing doing) {
   switch (doing) {
     case Doing::wait:
       return "Wait";
+    case Doing::watch:
+      return std::string(world::kWatchState);
     case Doing::cross:
       return "Cross";
     case Doing::leave:

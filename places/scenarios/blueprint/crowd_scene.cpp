@@ -100,7 +100,7 @@ void add_groups(const People& people, const Solids& solids, std::vector<Vector2d
     }
     if (standing.count == 0) continue;
     std::vector<Node> more;
-    if (group.doing == Doing::wait) more.push_back(facing_element(group.facing));
+    if (stays(group.doing)) more.push_back(facing_element(group.facing));
     scene.comment(fmt::format("/people/groups/{}", i));
     scene.add_group({profile_name(group.speed_mps, "group", i), state_name(group.doing),
                      describe::typed("Generator", "scatter",
