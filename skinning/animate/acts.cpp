@@ -41,19 +41,21 @@ Arm hanging(const Walker& walker) {
   return {1, 11 + walker.manner.elbow_deg, walker.manner.arms_out_deg, 6};
 }
 
-/// Standing calmly with the weight on the leg that somebody prefers, looking `aside` (-1 to 1).
-Figure calm(const Walker& walker, double aside, double head_down_deg, double lean_deg) {
+/// Standing calmly with the weight on the leg that somebody prefers, swaying `aside` (-1 to 1) and
+/// looking there, by a share of `look`.
+Figure calm(const Walker& walker, double aside, double look, double head_down_deg,
+            double lean_deg) {
   const double weight = walker.manner.liveliness > 1 ? 1 : -1;
   const double sway = turn_sine(0.5 * aside);
   Trunk trunk;
   trunk.hips_yaw = 0.04 * aside;
-  trunk.chest_yaw = 0.16 * aside;
-  trunk.tilt = 0.03 * sway + 0.055 * weight;
+  trunk.chest_yaw = 0.16 * aside * look;
+  trunk.tilt = 0.034 * sway + 0.055 * weight;
   trunk.lean = lean_deg * kDegree + 0.012 * std::abs(aside);
-  trunk.head_yaw = 0.8 * aside * walker.manner.liveliness;
+  trunk.head_yaw = 0.8 * aside * look * walker.manner.liveliness;
   trunk.head_down = head_down_deg * kDegree + 0.04 * std::abs(aside);
   return upright(walker, trunk, {hanging(walker), hanging(walker)},
-                 (0.012 * sway + 0.018 * weight) * walker.stature_m, kStraightKnee);
+                 (0.016 * sway + 0.018 * weight) * walker.stature_m, kStraightKnee);
 }
 
 Figure lively(const Walker& walker, const Trunk& trunk, const Arm& main, const Arm& other,
@@ -86,49 +88,49 @@ Figure folded(const Walker& walker, double aside, double lean_deg, double head_d
 }
 
 Figure pockets(const Walker& walker, double at) {
-  Figure figure = calm(walker, at, 4, -2);
+  Figure figure = calm(walker, at, 1, 4, -2);
   put_both(walker, Spot::pocket, figure);
   return figure;
 }
 
 Figure arms_crossed(const Walker& walker, double at) {
-  Figure figure = calm(walker, at, 0, -3);
+  Figure figure = calm(walker, at, 1, 0, -3);
   put_both(walker, Spot::elbow, figure);
   return figure;
 }
 
 Figure akimbo(const Walker& walker, double at) {
-  Figure figure = calm(walker, at, 0, -2);
+  Figure figure = calm(walker, at, 1, 0, -2);
   put_both(walker, Spot::waist, figure);
   return figure;
 }
 
 Figure hands_behind(const Walker& walker, double at) {
-  Figure figure = calm(walker, at, 5, -2);
+  Figure figure = calm(walker, at, 1, 5, -2);
   put_both(walker, Spot::back, figure);
   return figure;
 }
 
 Figure call(const Walker& walker, double at) {
-  Figure figure = calm(walker, 0.6 * at, 5, 0);
+  Figure figure = calm(walker, at, 0.6, 5, 0);
   put_hand(walker, main_hand(walker), Spot::ear, figure);
   return figure;
 }
 
 Figure film(const Walker& walker, double at) {
-  Figure figure = calm(walker, 0.3 * at, -6, -4);
+  Figure figure = calm(walker, at, 0.3, -6, -4);
   put_both(walker, Spot::eyes, figure);
   return figure;
 }
 
 Figure film_high(const Walker& walker, double at) {
-  Figure figure = calm(walker, 0.3 * at, -10, -5);
+  Figure figure = calm(walker, at, 0.3, -10, -5);
   put_hand(walker, main_hand(walker), Spot::overhead, figure);
   return figure;
 }
 
 Figure read_map(const Walker& walker, double at) {
-  Figure figure = calm(walker, 0.25 * at, 34, 5);
+  Figure figure = calm(walker, at, 0.25, 34, 5);
   put_both(walker, Spot::chest, figure);
   return figure;
 }
@@ -140,13 +142,13 @@ Figure squat(const Walker& walker, double at) {
 }
 
 Figure cower(const Walker& walker, double at) {
-  Figure figure = folded(walker, 0.25 * at, 46, 22);
+  Figure figure = folded(walker, 0.35 * at, 46, 22);
   put_both(walker, Spot::crown, figure);
   return figure;
 }
 
 Figure hold_head(const Walker& walker, double at) {
-  Figure figure = calm(walker, at, 2, -3);
+  Figure figure = calm(walker, at, 1, 2, -3);
   put_both(walker, Spot::crown, figure);
   return figure;
 }
@@ -154,7 +156,7 @@ Figure hold_head(const Walker& walker, double at) {
 /// To the mouth with the main hand and back, as people eat, drink and smoke; the other hand waits.
 Figure to_mouth(const Walker& walker, double at, double back_deg, Spot other_spot) {
   const double up = dip(at);
-  Figure figure = calm(walker, 0.25 * turn_sine(at), 8 - (8 + back_deg) * up, 1);
+  Figure figure = calm(walker, 0.25 * turn_sine(at), 1, 8 - (8 + back_deg) * up, 1);
   const Side other = other_hand(walker);
   if (!is_hand_busy(walker, other)) put_hand(walker, other, other_spot, figure);
   put_hand(walker, main_hand(walker), Spot::chest, Spot::mouth, up, figure);

@@ -126,6 +126,9 @@ class Planner {
     if (wishes.empty()) return;
     if (walk.from_rest) rest_at(wishes.front());
     rest_at(wishes.back());
+    if (wishes.size() > 1 && wishes[wishes.size() - 2].clip == pedestrian_.walk) {
+      wishes[wishes.size() - 2].clip = "walk";
+    }
     const double span_m = end_m_ - begin_m_;
     const double stretch = span_m / std::max(total_m(wishes, done), 1e-6);
     double wished_m = 0;
@@ -158,6 +161,9 @@ class Planner {
   const Clip& choose_clip(std::string_view name, double length_m, const Clip* before,
                           bool at_rest) {
     const double stride = 2 * length_m / pedestrian_.stature_m;
+    if (before != nullptr) {
+      if (const Clip* other = change_bearing(name, stride, *before)) return *other;
+    }
     // First and last steps have clips of their own, for fewer lengths.
     const Clip* rest = at_rest ? clips_.find("start_left", stride) : nullptr;
     const Clip& clip = clips_.nearest(name, rest != nullptr ? rest->stride : stride);
@@ -167,6 +173,23 @@ class Planner {
     const double kept = std::abs(before->stride - stride);
     const double apart = std::abs(before->stride - clip.stride);
     return kept < kHold * apart ? *before : clip;
+  }
+
+  /// The clip of a step that leads from one bearing of a walker to another, or cannot have the
+  /// bearing; null for other steps. Bearings change between strides of one length, so that no foot
+  /// slides while the arms move for a longer time.
+  const Clip* change_bearing(std::string_view name, double stride, const Clip& before) const {
+    constexpr double kMaxOff = 0.03;  // statures
+    const std::string_view own = pedestrian_.walk;
+    if (own == "walk" || !before.name.starts_with("walk")) return nullptr;
+    if (name == "walk" && before.name == own) return &clips_.nearest("walk", before.stride);
+    if (name != own) return nullptr;
+    const Clip& wanted = clips_.nearest(own, stride);
+    if (std::abs(wanted.stride - stride) > kMaxOff) {
+      return &clips_.nearest("walk", before.name == own ? before.stride : stride);
+    }
+    if (before.name == own || before.stride == wanted.stride) return nullptr;
+    return &clips_.nearest("walk", wanted.stride);
   }
 
   const Trajectory& trajectory_;

@@ -247,6 +247,7 @@ void RestLayer::do_act(const Act& act, const Clip& clip, double begin, double en
   const double from = begin + raising;
   const double to = end - raising;
   add(clip, begin, from, 0, kActRaisedFrame);
+  pieces_.back().moving = 1;
   if (act.cycle_s > 0) {
     const double wanted = (to - from) / steps(act.cycle_s * random_.uniform(0.8, 1.25));
     const int times = std::max(static_cast<int>(std::lround(wanted)), 1);
@@ -259,6 +260,7 @@ void RestLayer::do_act(const Act& act, const Clip& clip, double begin, double en
     look_about(clip, kActRaisedFrame + 1 + kReach, kReach, from, to);
   }
   add(clip, to, end, kActRaisedFrame, 0);
+  pieces_.back().moving = 1;
 }
 
 // Raised in the first half of the clip, held for as long as there is time, and lowered.

@@ -104,7 +104,7 @@ Place on_head(const Walker& walker, float sign, Spot spot) {
   const float up_m = body_reach(walker, head, middle, Vector3f::UnitZ(), 0.055F * s);
   return {Bone::head,
           middle + Vector3f(-0.02F * s, 0.04F * s * sign, up_m + 0.01F),
-          {0.5F, sign, 0.3F}};
+          {0.6F, sign, -0.15F}};
 }
 
 Place find_place(const Walker& walker, Side side, Spot spot) {

@@ -13,8 +13,10 @@
 #include "base/files/files.h"
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
+#include "skinning/animate/acts.h"
 #include "skinning/animate/bearing.h"
 #include "skinning/animate/clips.h"
+#include "skinning/animate/sitting.h"
 #include "skinning/bake/extent.h"
 #include "skinning/bake/hull.h"
 #include "skinning/bake/notice.h"
@@ -126,18 +128,42 @@ std::map<std::string, int> number_textures(const DressedPerson& dressed) {
   return numbers;
 }
 
+/// Poses on which levels of detail are fitted.
+struct TellingPoses {
+  std::vector<Palette> others;  ///< of people who walk, run, stand at ease and fall
+  std::vector<Palette> acting;  ///< acts of people who stand, and the like of walkers
+  std::vector<Palette> folded;  ///< sitting, squatting, cowering
+};
+
 // Adds the frames of a clip on which levels of detail are fitted: all of falls, in which bodies
 // bend most, some of fast strides and of what people do on the spot, and few of the others, which
 // are alike.
 void add_telling_poses(const Clip& clip, const std::vector<Palette>& palettes,
-                       std::vector<Palette>& poses) {
-  const bool is_telling = clip.stride == 0 || find_bearing(clip.name) == nullptr ||
-                          find_bearing(clip.name)->runs;
+                       TellingPoses& poses) {
+  const BearingClips* gait = find_bearing(clip.name);
+  const bool is_telling = gait == nullptr || gait->runs;
+  const Act* act = find_act(clip.name);
+  const bool is_folded = find_seat(clip.name).has_value() || clip.name == "rise" ||
+                         (act != nullptr && !act->actions.has(Action::stand));
+  const bool is_act = act != nullptr || clip.name == "cheer" ||
+                      (gait != nullptr && gait->bearing > Bearing::look_up && !gait->runs);
+  std::vector<Palette>& kind = is_folded ? poses.folded : is_act ? poses.acting : poses.others;
   // No divisors of the frames of a stride.
   const std::size_t step = clip.name.starts_with("fall") ? 1 : is_telling ? 7 : 13;
   for (std::size_t frame = 0; frame < palettes.size(); ++frame) {
-    if ((clip.first + frame) % step == 0) poses.push_back(palettes[frame]);
+    if ((clip.first + frame) % step == 0) kind.push_back(palettes[frame]);
   }
+}
+
+/// Appends all poses to those of others; returns how many there are without acts, without folds and
+/// of all kinds.
+std::array<std::size_t, 3> join_poses(TellingPoses& poses) {
+  std::array<std::size_t, 3> counts = {poses.others.size(), 0, 0};
+  poses.others.insert(poses.others.end(), poses.acting.begin(), poses.acting.end());
+  counts[1] = poses.others.size();
+  poses.others.insert(poses.others.end(), poses.folded.begin(), poses.folded.end());
+  counts[2] = poses.others.size();
+  return counts;
 }
 
 // A little less than the permitted slack, since other poses and directions are a little farther
@@ -206,7 +232,7 @@ class Bakery {
     baked.character.tints = person.outfit.tints;
     Walker walker = make_walker(dressed.joints, dressed.stature_m, asset.levels.front());
     walker.manner = choose_manner(baked.character);
-    std::vector<Palette> poses;
+    TellingPoses poses;
     for (const Clip& clip : clips_) {
       const std::vector<Palette> palettes = bake_clip(walker, clip);
       baked.motion += pack(dressed.joints, palettes);
@@ -214,15 +240,21 @@ class Bakery {
     }
     const std::array<Mesh, 2> finest = {asset.levels.front(),
                                         hull.level(kDetailLevels[1].triangles, image)};
-    const Extent extent(finest, std::move(poses));
+    const std::array<std::size_t, 3> pose_counts = join_poses(poses);
+    const Extent extent(finest, std::move(poses.others));
     for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
       if (level > 0) {
         const std::size_t carried = item ? item->indices.size() / 3 : 0;
         const std::size_t triangles = kDetailLevels[level].triangles - carried;
-        asset.levels.push_back(hull.level(triangles, image, extent,
-                                          bake_slack_m(level, dressed.stature_m),
-                                          max_triangles(level) - carried));
+        // Coarse surfaces that are fitted on very different poses lose the shape of each.
+        constexpr std::size_t kFirstWithoutFolds = 5;
+        const std::size_t pose_count = level < kFirstWithoutFolds ? pose_counts[2]
+                                       : level < kDistantLevel    ? pose_counts[1]
+                                                                  : pose_counts[0];
+        asset.levels.push_back(hull.level(
+            triangles, image, extent,
+            {bake_slack_m(level, dressed.stature_m), max_triangles(level) - carried, pose_count}));
       }
       if (level >= kDistantLevel) make_rigid(asset.levels.back());
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));

@@ -122,7 +122,7 @@ Extent::Points Extent::posed(const Fit& fit, std::size_t pose) {
 float Extent::find_hot(Fit& fit) const {
   constexpr float kHotShare = 0.6F;
   float max_off_m = 0;
-  for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
+  for (std::size_t pose = 0; pose < fit.pose_count; ++pose) {
     const Points points = posed(fit, pose);
     std::vector<std::size_t>& hot = fit.hot[pose];
     for (std::size_t d = 0; d < directions_[pose].size(); ++d) {
@@ -165,7 +165,7 @@ float Extent::move(Fit& fit, float step) const {
   std::vector<Vector3f>& points = *fit.points;
   fit.moves.assign(points.size(), {});
   float max_off_m = 0;
-  for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
+  for (std::size_t pose = 0; pose < fit.pose_count; ++pose) {
     if (!fit.hot[pose].empty()) compare(fit, pose, max_off_m);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -183,7 +183,7 @@ void Extent::replace(Fit& fit) const {
     if (move.missing_m <= fit.slack_m) continue;
     (*fit.points)[i] = Vector3f(move.missing->position.data());
     (*fit.weights)[i] = drawn_weights(*move.missing);
-    for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
+    for (std::size_t pose = 0; pose < fit.pose_count; ++pose) {
       fit.matrices[pose][i] = mixed(poses_[pose], (*fit.weights)[i]);
     }
   }
@@ -193,14 +193,15 @@ void Extent::replace(Fit& fit) const {
 // several poses pull at otherwise swings to and fro. Most rounds look only at the directions that
 // were found to be far off.
 float Extent::restore(std::vector<Vector3f>& points, std::vector<BoneWeights>& weights,
-                      float slack_m) const {
+                      float slack_m, std::size_t pose_count) const {
   constexpr int kSearches = 8;
   constexpr int kRounds = 16;  // after each search
-  Fit fit{&points, &weights, {}, {}, std::vector<std::vector<std::size_t>>(poses_.size()), slack_m};
+  Fit fit{&points, &weights, {}, {}, {}, slack_m, std::min(pose_count, poses_.size())};
+  fit.hot.resize(fit.pose_count);
   for (BoneWeights& own : weights) own = as_drawn(own);
-  for (const Palette& pose : poses_) {
+  for (std::size_t pose = 0; pose < fit.pose_count; ++pose) {
     std::vector<BoneMatrix>& of_pose = fit.matrices.emplace_back();
-    for (const BoneWeights& own : weights) of_pose.push_back(mixed(pose, own));
+    for (const BoneWeights& own : weights) of_pose.push_back(mixed(poses_[pose], own));
   }
   std::vector<Vector3f> best = points;
   std::vector<BoneWeights> best_weights = weights;

@@ -22,9 +22,10 @@ class Extent {
   /// until they reach as far to within `slack_m`, or as nearly as some rounds achieve; returns how
   /// far off (m) they still are. Simplified surfaces have lost what stands out, such as fingertips
   /// and toes, and where they are fitted by volume, their corners stick out. Points that still miss
-  /// something become the vertices that they miss, with their weights.
+  /// something become the vertices that they miss, with their weights. Only the first `pose_count`
+  /// poses count: a surface of few triangles that is fitted on very different ones collapses.
   float restore(std::vector<Eigen::Vector3f>& points, std::vector<BoneWeights>& weights,
-                float slack_m) const;
+                float slack_m, std::size_t pose_count) const;
 
  private:
   struct Reach {
@@ -49,6 +50,7 @@ class Extent {
     std::vector<Move> moves;                        ///< [point]
     std::vector<std::vector<std::size_t>> hot;      ///< [pose]: directions that were far off
     float slack_m;
+    std::size_t pose_count;
   };
 
   using Directions = std::vector<Eigen::Vector3f>;

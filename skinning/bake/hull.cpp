@@ -86,6 +86,16 @@ ClosedSurface simplified(const ClosedSurface& fine, std::size_t triangles) {
   return coarse;
 }
 
+/// The volume that a closed surface encloses.
+float volume_m3(const std::vector<Eigen::Vector3f>& points,
+                const std::vector<std::uint32_t>& indices) {
+  float sum = 0;
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
+    sum += points[indices[i]].dot(points[indices[i + 1]].cross(points[indices[i + 2]]));
+  }
+  return sum / 6;
+}
+
 }  // namespace
 
 Hull::Hull(const DressedPerson& person, const std::map<std::string, Image>& textures,
@@ -184,12 +194,19 @@ Mesh Hull::level(std::size_t triangles, int image) const {
   return mesh_of(standing_surface(triangles), image);
 }
 
-Mesh Hull::level(std::size_t triangles, int image, const Extent& extent, float slack_m,
-                 std::size_t max_triangles) const {
-  for (std::size_t count = triangles;; count = std::min(count + count / 4, max_triangles)) {
-    Simplified simple = standing_surface(count);
-    const float off_m = extent.restore(simple.standing, simple.weights, slack_m);
-    if (off_m <= slack_m || count >= max_triangles) return mesh_of(simple, image);
+Mesh Hull::level(std::size_t triangles, int image, const Extent& extent, const Fit& fit) const {
+  // A fit that takes this much of the volume has folded the surface.
+  constexpr float kLeastVolume = 0.6F;
+  for (std::size_t count = triangles;; count = std::min(count + count / 4, fit.max_triangles)) {
+    const Simplified simple = standing_surface(count);
+    Simplified fitted = simple;
+    const float off_m =
+        extent.restore(fitted.standing, fitted.weights, fit.slack_m, fit.pose_count);
+    const bool is_last = count >= fit.max_triangles;
+    const bool is_whole = volume_m3(fitted.standing, simple.surface.indices) >=
+                          kLeastVolume * volume_m3(simple.standing, simple.surface.indices);
+    if (is_whole && (off_m <= fit.slack_m || is_last)) return mesh_of(fitted, image);
+    if (is_last) return mesh_of(simple, image);
   }
 }
 

@@ -34,10 +34,15 @@ class Hull {
   /// first of the portrait's two images.
   Mesh level(std::size_t triangles, int image) const;
 
-  /// A level that reaches as far as `extent`, to within `slack_m`, with a quarter more triangles as
-  /// often as it needs them for that, up to `max_triangles`.
-  Mesh level(std::size_t triangles, int image, const Extent& extent, float slack_m,
-             std::size_t max_triangles) const;
+  /// How a level is fitted.
+  struct Fit {
+    float slack_m;  ///< within which it reaches as far
+    std::size_t max_triangles;
+    std::size_t pose_count;  ///< of the extent's poses
+  };
+  /// A level that reaches as far as `extent`, with a quarter more triangles as often as it needs
+  /// them for that.
+  Mesh level(std::size_t triangles, int image, const Extent& extent, const Fit& fit) const;
 
  private:
   /// Skinning weights of a point of the surface: the mean of the nearest points of the dressed

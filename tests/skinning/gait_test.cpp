@@ -79,7 +79,7 @@ TEST(Gait, StandingFeetMoveBackAsFastAsTheGround) {
     for (const Clip& clip : standard_clips()) {
       if (clip.stride <= 0 || !clip.cyclic) continue;
       const std::vector<Palette> palettes = bake_clip(walker, clip);
-      const double lasts = duty({clip.name == "run" || clip.name == "panic", clip.stride});
+      const double lasts = duty({leaves_the_ground(clip), clip.stride});
       const Vertex ball = made_up_marks(Side::left, scale)[1];
       const float begin = skin(ball, palettes[2], palettes[2], 0).x();
       for (std::uint32_t frame = 2; frame < lasts * kClipFrames; ++frame) {

@@ -61,8 +61,8 @@ TEST(Palettes, BentBonesAndDistantOnesAreRefused) {
   Palette distant = palette;
   distant[4].col(3).x() = 9;
   Palettes packed;
-  EXPECT_ANY_THROW(packed.push_back(bent));
-  EXPECT_ANY_THROW(packed.push_back(distant));
+  EXPECT_DEATH(packed.push_back(bent), "turned and moved");
+  EXPECT_DEATH(packed.push_back(distant), "turned and moved");
 }
 
 }  // namespace

@@ -319,7 +319,7 @@ TEST(Plan, PeopleDoNotStandInStep) {
   for (const char* name : {"idle", "idle_left", "idle_right", "phone"}) {
     EXPECT_GT(std::count(seen.begin(), seen.end(), name), 100) << name;
   }
-  EXPECT_GT(look_around, 200);
+  EXPECT_GT(look_around, 100);
   EXPECT_LT(look_around, static_cast<int>(seen.size()) / 2);
 }
 
