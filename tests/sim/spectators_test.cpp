@@ -145,10 +145,13 @@ TEST(Sitters, SitForTheWholeRunWithoutAnyStand) {
   ASSERT_EQ(without.agents(), 3U);
   ASSERT_EQ(scenario.sitters.size(), 9U);
   ASSERT_EQ(trace.agents(), 3U + 9);
+  EXPECT_GT(trace.header.group[3],
+            *std::max_element(without.header.group.begin(), without.header.group.end()));
   for (std::size_t i = 0; i < 9; ++i) {
     const world::Sitter& sitter = scenario.sitters[i];
     EXPECT_EQ(trace.header.role[3 + i], AgentRole::spectator);
-    EXPECT_EQ(trace.header.group[3 + i], static_cast<int>(sitter.prop)) << "neighbors are a group";
+    // Neighbors are a group, numbered after the crowd's.
+    EXPECT_EQ(trace.header.group[3 + i] - trace.header.group[3], static_cast<int>(sitter.prop));
     for (std::size_t step = 0; step < trace.steps(); ++step) {
       const std::size_t at = trace.at(step, 3 + i);
       ASSERT_TRUE(trace.present(step, 3 + i));
