@@ -78,7 +78,6 @@ void ActionsCheck::check_names(const formats::Person& person, const json& names,
   const auto does = [&](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  // Those who lie do nothing else, and those who fall or get up were compared.
   const bool is_unlike_posture = does("sit") != (person.state == "sitting") ||
                                  (does("squat") || does("cower")) != (person.state == "squatting");
   // A library of a user's own may have no motion of falling.

@@ -113,7 +113,7 @@ TEST(Sitters, SitBesideEachOther) {
       pairs += count * (seats - 1);
     }
   }
-  // Of the neighbors of somebody who sits, half would sit if all seats were chosen one by one.
+  // Half of the neighbors of somebody who sits would sit if all seats were chosen one by one.
   EXPECT_GT(static_cast<double>(beside) / pairs, 0.6);
 }
 

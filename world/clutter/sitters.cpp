@@ -23,7 +23,7 @@ constexpr double kTorsoM = 0.15;                            // around the pelvis
 constexpr double kKneesM = 0.45;                            // from there ahead
 constexpr double kBucketM = 16;
 
-/// What nobody may sit in, by place.
+/// Buildings and props, which nobody may sit in, by place.
 class Obstacles {
  public:
   explicit Obstacles(const Scenario& scenario) {

@@ -19,8 +19,8 @@ struct Sitters {
 std::vector<Sitter> free_seats(const Scenario& scenario);
 
 /// Seats people (Scenario::sitters) on the share of the free seats, rounded, of a scenario whose
-/// props are complete: by the seed, and rather beside each other than alone. Who sits at a smaller
-/// share sits there at a larger one, too.
+/// props are complete: by the seed, and rather beside each other than alone. The people of a
+/// smaller share sit there at a larger one, too.
 void seat_people(const Sitters& sitters, Scenario& scenario);
 
 }  // namespace throng::world
