@@ -58,8 +58,8 @@ void check_bodies(const formats::Image& image, Findings& findings);
 void check_exports(const formats::DatasetInfo& info, const nlohmann::json& manifest,
                    Findings& findings);
 
-/// The version of the definitions by which the COCO file was labeled; "" if it does not say.
-std::string label_version(const formats::DatasetInfo& info);
+/// The version of the definitions by which the COCO file was labeled; 0 if it does not say.
+int label_version(const formats::DatasetInfo& info);
 
 /// Checks names and ids of the COCO file's categories.
 void check_categories(const formats::DatasetInfo& info, Findings& findings);

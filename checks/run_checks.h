@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -181,8 +182,8 @@ class ActionsCheck : public GroundTruthCheck {
     std::set<std::string> actions;
   };
 
-  static void check_names(const formats::Person& person, const nlohmann::json& names,
-                          Findings& findings);
+  void check_names(const formats::Person& person, const nlohmann::json& names,
+                   Findings& findings) const;
   static void check_together(const formats::Person& person,
                              const std::map<std::int64_t, const formats::Person*>& by_track,
                              Findings& findings);
@@ -191,6 +192,7 @@ class ActionsCheck : public GroundTruthCheck {
   void check_groups(const formats::CsvTable& table, const std::string& file,
                     Findings& findings) const;
 
+  std::optional<bool> knows_postures_;             ///< whether states tell who sits
   std::map<std::string, std::vector<Seen>> seen_;  ///< by run
   std::map<std::int64_t, nlohmann::json> groups_;  ///< of tracks that images show
 };

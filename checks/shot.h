@@ -30,7 +30,7 @@ struct Shot {
   camera::Camera camera;
   bool is_plain = true;                             ///< no lens distortion, no rolling shutter
   bool at_once = true;                              ///< no rolling shutter
-  bool has_current_labels = true;                   ///< by this version's definitions of labels
+  bool has_final_contrasts = true;                  ///< of the image after JPEG
   std::shared_ptr<const PixelRays> rays = nullptr;  ///< of a distorted image; may be null
 
   std::string record() const { return "image " + std::to_string(image.id); }

@@ -117,11 +117,14 @@ class IdCheck {
   std::set<std::int64_t> images_;
 };
 
+/// The version of labels since which contrasts are those of the image after JPEG.
+constexpr int kFinalContrastsSince = 3;
+
 /// Checks of one image at a time and of pairs, fed in the order of the COCO file.
 class ShotChecks {
  public:
   explicit ShotChecks(const formats::DatasetInfo& info)
-      : has_current_labels_(label_version(info) == annotate::kLabelVersion) {}
+      : has_final_contrasts_(label_version(info) >= kFinalContrastsSince) {}
 
   void add(const formats::DatasetInfo& info, const formats::Image& image, GroundTruthChecks& kinds,
            Findings& findings) {
@@ -132,7 +135,7 @@ class ShotChecks {
     shot.rays = rays_of(image.camera, shot.camera.intrinsics);
     shot.is_plain = is_plain(image);
     shot.at_once = is_shot_at_once(image);
-    shot.has_current_labels = has_current_labels_;
+    shot.has_final_contrasts = has_final_contrasts_;
     kinds.add_pixels(info, image, shot.pixels, findings);
     check_buildings(shot, findings);
     check_normals(shot, findings);
@@ -182,7 +185,7 @@ class ShotChecks {
     return is_same ? last->second.rays : std::make_shared<const PixelRays>(intrinsics);
   }
 
-  bool has_current_labels_;
+  bool has_final_contrasts_;
   AlignmentCheck alignment_;
   ClothesCheck clothes_;
   PlaceCheck places_;

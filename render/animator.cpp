@@ -107,10 +107,11 @@ class Watcher {
 }  // namespace
 
 Animator::Animator(const world::Trace& trace, const skinning::Population& population,
-                   const skinning::Styling& styling, std::span<const world::Stand> stands)
+                   const skinning::Styling& styling, std::span<const world::Stand> stands,
+                   std::span<const world::Sitter> sitters)
     : trace_(&trace),
       stays_(trace.agents()),
-      on_stands_(trace, stands),
+      on_stands_(trace, stands, sitters),
       poses_on_stands_(population) {
   const Watcher watcher(trace);
   std::vector<Moment> moments;

@@ -19,9 +19,10 @@ namespace throng::render {
 /// object.
 class Animator {
  public:
-  /// People on `stands`, which are copied, are as high as the floor there.
+  /// People on `stands` and `sitters`, which are copied, are as high as the floor there.
   Animator(const world::Trace& trace, const skinning::Population& population,
-           const skinning::Styling& styling = {}, std::span<const world::Stand> stands = {});
+           const skinning::Styling& styling = {}, std::span<const world::Stand> stands = {},
+           std::span<const world::Sitter> sitters = {});
 
   /// The scene at `time_s`, interpolated between steps of the crowd. It contains the people who are
   /// present. `frame_index` becomes Scene::index.

@@ -1,5 +1,9 @@
 #include "world/props.h"
 
+#include <map>
+#include <numbers>
+#include <set>
+
 #include "base/compute/random.h"
 #include "base/geometry/polygon.h"
 #include "base/geometry/rectangle.h"
@@ -117,6 +121,41 @@ const std::array<PropType, kPropKinds>& prop_types() {
   return types;
 }
 
+std::span<const PropSeat> prop_seats(PropKind kind) {
+  constexpr double kAhead = -std::numbers::pi / 2;  // props have their backs at +y
+  constexpr double kBehind = std::numbers::pi / 2;
+  // Places follow the shapes: 0.18 m before a back, and beside the legs of tables.
+  static const std::map<PropKind, std::vector<PropSeat>> seats = {
+      {PropKind::bench,
+       {{{-0.57, 0.05}, kAhead, 0.455}, {{0, 0.05}, kAhead, 0.455}, {{0.57, 0.05}, kAhead, 0.455}}},
+      {PropKind::bus_stop,
+       {{{-1.15, 0.46}, kAhead, 0.48},
+        {{-0.5, 0.46}, kAhead, 0.48},
+        {{0.15, 0.46}, kAhead, 0.48},
+        {{0.68, 0.46}, kAhead, 0.48}}},
+      {PropKind::platform_shelter,
+       {{{-1.2, 0.44}, kAhead, 0.47},
+        {{-0.7, 0.44}, kAhead, 0.47},
+        {{-0.03, 0.44}, kAhead, 0.47},
+        {{0.68, 0.44}, kAhead, 0.47}}},
+      {PropKind::cafe_table, {{{0, 0.65}, kAhead, 0.46}, {{0, -0.65}, kBehind, 0.46}}},
+      {PropKind::picnic_table,
+       {{{-0.3, 0.7}, kAhead, 0.46},
+        {{0.3, 0.7}, kAhead, 0.46},
+        {{0.3, -0.7}, kBehind, 0.46},
+        {{-0.3, -0.7}, kBehind, 0.46}}},
+      {PropKind::beer_table,
+       {{{-0.52, 0.7}, kAhead, 0.48},
+        {{0, 0.7}, kAhead, 0.48},
+        {{0.52, 0.7}, kAhead, 0.48},
+        {{0.52, -0.7}, kBehind, 0.48},
+        {{0, -0.7}, kBehind, 0.48},
+        {{-0.52, -0.7}, kBehind, 0.48}}},
+  };
+  const auto found = seats.find(kind);
+  return found == seats.end() ? std::span<const PropSeat>() : found->second;
+}
+
 std::array<Eigen::Vector2d, 4> prop_footprint(const Prop& prop) {
   return geometry::turned_rectangle(prop.position, prop.scale * prop_type(prop.kind).half_size,
                                     prop.yaw_rad);
@@ -127,16 +166,21 @@ double distance_to(const Prop& prop, const Eigen::Vector2d& point) {
 }
 
 void thin_out(Scenario& scenario, double share, std::uint64_t seed) {
+  std::set<std::size_t> taken;
+  for (const Sitter& sitter : scenario.sitters) taken.insert(sitter.prop);
   std::vector<Prop> kept;
+  std::vector<std::size_t> new_index(scenario.props.size());
   const std::size_t first_strewn = scenario.props.size() - scenario.strewn_props;
   scenario.strewn_props = 0;
   for (std::size_t i = 0; i < scenario.props.size(); ++i) {
-    const bool stays = i < scenario.placed_props ||
+    const bool stays = i < scenario.placed_props || taken.contains(i) ||
                        Random(seed, Stream::environment, kThinning + i).uniform() < share;
     if (!stays) continue;
+    new_index[i] = kept.size();
     kept.push_back(scenario.props[i]);
     scenario.strewn_props += i >= first_strewn ? 1 : 0;
   }
+  for (Sitter& sitter : scenario.sitters) sitter.prop = new_index[sitter.prop];
   scenario.props = std::move(kept);
 }
 

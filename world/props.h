@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -134,12 +136,33 @@ inline const PropType& prop_type(PropKind kind) {
   return prop_types().at(static_cast<std::size_t>(kind));
 }
 
+/// A place to sit on a prop of scale 1, in the prop's frame.
+struct PropSeat {
+  Eigen::Vector2d position;  ///< below the sitter's pelvis (m)
+  double yaw_rad = 0;        ///< where the sitter faces: away from a back, toward a table
+  double height_m = 0;       ///< of the seat above the ground
+};
+
+/// The seats of a kind; none of kinds that nobody sits on. They are where all looks of the kind
+/// have one (render/props/shapes).
+std::span<const PropSeat> prop_seats(PropKind kind);
+
 struct Prop {
   PropKind kind = PropKind::tree;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< center on the ground, m
   double yaw_rad = 0;
   double scale = 1;
   std::uint32_t look = 0;  ///< selects among the kind's colors and shapes
+};
+
+/// Somebody who sits on a prop for the whole run.
+struct Sitter {
+  std::size_t prop = 0;                                ///< index into Scenario::props
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< below the pelvis (m)
+  double yaw_rad = 0;
+  /// Height (m) of the floor on which the same person would sit on a seat of kSeatHeightM
+  /// (world/stand_seats.h): a little above or below the ground.
+  double floor_m = 0;
 };
 
 /// Corners of the ground that a prop covers, counter-clockwise (m).

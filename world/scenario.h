@@ -107,6 +107,7 @@ struct Scenario {
   std::vector<Prop> props;  ///< placed in the order of the file, then scattered, then of clutter
   std::size_t placed_props = 0;  ///< number of placed props
   std::size_t strewn_props = 0;  ///< number of clutter's, which no crowd walks around
+  std::vector<Sitter> sitters;   ///< on seats of props, by prop (world/clutter/sitters.h)
   std::vector<Stand> stands;
   std::vector<PlacedMesh> meshes;
   std::vector<GroundArea> areas;  ///< later areas cover earlier ones
@@ -123,8 +124,8 @@ struct Scenario {
 };
 
 /// Removes scattered props and clutter: each stays with probability `share` (0 to 1), determined by
-/// the seed. The props that stay at a smaller share are a subset of those that stay at a larger
-/// one.
+/// the seed, and if somebody sits on it. The props that stay at a smaller share are a subset of
+/// those that stay at a larger one.
 void thin_out(Scenario& scenario, double share, std::uint64_t seed);
 
 /// Returns the folder of shipped scenarios: $THRONG_SCENARIOS if set, else the installed folder,

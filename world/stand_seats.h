@@ -19,7 +19,7 @@ inline constexpr double kAisleWidthM = 1.2;
 inline constexpr double kSeatSpacingM = 0.5;
 /// From the middle of a sitter's pelvis to the rear edge of the row.
 inline constexpr double kSeatToRearM = 0.25;
-/// Height of a seat above the floor of its row.
+/// Height of a seat above the floor of its row, on which people sit (skinning's kSeatM).
 inline constexpr double kSeatHeightM = 0.44;
 /// Width of a vomitory, an opening through which people come from below, and its rows.
 inline constexpr double kVomitoryWidthM = 2.4;

@@ -26,7 +26,7 @@ enum class AgentRole : std::uint8_t {
   disaster = 1,   ///< represents a disaster; neither rendered nor counted
   absent = 2,     ///< part of the scenario but not of this run; neither rendered nor counted
   attacker = 3,   ///< represents a disaster and is a person: rendered and labeled, but not counted
-  spectator = 4,  ///< stays on a stand: rendered and labeled, but not counted
+  spectator = 4,  ///< stays on a stand or on a prop's seat: rendered and labeled, but not counted
 };
 
 /// Whether agents with this role are people who are rendered and labeled.
@@ -49,7 +49,8 @@ bool implies_lying(std::string_view state_name);
 /// The state of people who stand and watch a show, of blueprints.
 inline constexpr std::string_view kWatchState = "Watch";
 
-/// States of people on stands (world/stand.h), the last ones of runs with spectators.
+/// States of people on stands (world/stand.h) and on seats of props (world/clutter/sitters.h), the
+/// last ones of runs with such people.
 inline constexpr std::array<std::string_view, 4> kStandStates = {"sitting", "standing", "cheering",
                                                                  "leaving"};
 

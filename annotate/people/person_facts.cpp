@@ -155,8 +155,9 @@ nlohmann::json person_attributes(const skinning::Population& population,
 }  // namespace
 
 std::string_view to_string(Activity activity) {
-  constexpr std::array<std::string_view, 8> kNames = {
-      "waiting", "walking", "running", "following", "panicking", "lying", "falling", "getting_up"};
+  constexpr std::array<std::string_view, 10> kNames = {
+      "waiting", "walking", "running",    "following", "panicking",
+      "lying",   "falling", "getting_up", "sitting",   "squatting"};
   return kNames.at(static_cast<std::size_t>(activity));
 }
 
@@ -166,6 +167,8 @@ Activity classify_activity(std::string_view state, std::uint8_t flags, skinning:
   if (actions.has(Action::fall)) return Activity::falling;
   if (actions.has(Action::get_up)) return Activity::getting_up;
   if (actions.has(Action::lie) || (flags & world::kFallen) != 0) return Activity::lying;
+  if (actions.has(Action::sit)) return Activity::sitting;
+  if (actions.has(Action::squat) || actions.has(Action::cower)) return Activity::squatting;
   if ((flags & world::kPanicked) != 0) return Activity::panicking;
   if (speed_mps < kStandingMps) return Activity::waiting;
   if (says_follow(state)) return Activity::following;

@@ -23,15 +23,18 @@ enum class Activity : std::uint8_t {
   panicking,
   lying,
   falling,
-  getting_up
+  getting_up,
+  sitting,
+  squatting
 };
 std::string_view to_string(Activity activity);
 
 /// The activity of a person from the name of their behavior's state, the trace's flags, the actions
 /// of the rendered body and the speed, by the first rule that applies: falling, lying or getting up
-/// if the body does so; lying with world::kFallen; panicking with world::kPanicked; waiting below
-/// 0.2 m/s; following if the state's name says so; running above 2.07 m/s (transition from walking
-/// to running, Hreljac 1993); walking.
+/// if the body does so; lying with world::kFallen; sitting or, for squat and cower, squatting if
+/// the body does so; panicking with world::kPanicked; waiting below 0.2 m/s; following if the
+/// state's name says so; running above 2.07 m/s (transition from walking to running, Hreljac 1993);
+/// walking.
 Activity classify_activity(std::string_view state, std::uint8_t flags, skinning::Actions actions,
                            double speed_mps);
 

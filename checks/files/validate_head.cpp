@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <string>
 
@@ -59,8 +60,11 @@ std::string version_in(const json& head) {
 
 }  // namespace
 
-std::string label_version(const formats::DatasetInfo& info) {
-  return version_in(head_of_file(info));
+int label_version(const formats::DatasetInfo& info) {
+  const std::string text = version_in(head_of_file(info));
+  int version = 0;
+  std::from_chars(text.data(), text.data() + text.size(), version);
+  return version;
 }
 
 void check_categories(const formats::DatasetInfo& info, Findings& findings) {

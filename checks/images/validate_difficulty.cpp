@@ -21,7 +21,7 @@ namespace {
 /// Whether both contrasts are the image's.
 bool check_contrast(const Shot& shot, const formats::Person& person, const json& difficulty,
                     Findings& findings) {
-  if (shot.pixels.rgb.empty() || !shot.has_current_labels) return true;
+  if (shot.pixels.rgb.empty() || !shot.has_final_contrasts) return true;
   const annotate::Contrast seen =
       annotate::measure_contrast({shot.pixels.width, shot.pixels.height, shot.pixels.rgb},
                                  formats::to_pixel_mask(shot.instance_mask(person)));

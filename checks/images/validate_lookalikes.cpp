@@ -91,7 +91,7 @@ void check_lookalikes(const Shot& shot, Findings& findings) {
     listed[person.track_id] = difficulty->at("lookalikes").get<std::set<std::int64_t>>();
   }
   check_symmetry(shot, listed, findings);
-  if (shot.pixels.rgb.empty() || !shot.has_current_labels) return;
+  if (shot.pixels.rgb.empty() || !shot.has_final_contrasts) return;
   std::vector<annotate::PersonLook> looks;
   for (const formats::Person& person : shot.image.people)
     looks.push_back(describe_look(shot, person));

@@ -90,7 +90,8 @@ std::optional<bool> leads_like_flow(const Shot& before, const Shot& after, int x
 }
 
 bool is_upright(const formats::Person& person) {
-  return person.state != "lying" && person.state != "falling" && person.state != "getting_up";
+  return person.state != "lying" && person.state != "falling" && person.state != "getting_up" &&
+         person.state != "squatting";
 }
 
 /// How much farther than the place of somebody who falls or gets up their pixels may move on the

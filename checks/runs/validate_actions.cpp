@@ -10,6 +10,7 @@
 #include "base/files/files.h"
 #include "checks/run_checks.h"
 #include "formats/files/csv_table.h"
+#include "skinning/animate/action.h"
 #include "spec/annotate/table_columns.h"
 
 namespace throng::checks {
@@ -20,22 +21,30 @@ using nlohmann::json;
 namespace {
 
 /// Somebody does one of these at a time.
-constexpr std::array kMotions = {"stand", "walk", "run", "turn", "fall", "lie", "get_up", "sit"};
-constexpr std::array kOthers = {"look_around", "use_phone", "look_at_drone",
-                                "panic",       "cheer",     "carry"};
+constexpr std::array kMotions = {"stand", "walk",   "run", "turn",  "fall",
+                                 "lie",   "get_up", "sit", "squat", "cower"};
+
+/// An action that goes with a motion.
+bool is_other_action(const std::string& name) {
+  return name == "carry" || std::find(skinning::kActionNames.begin(), skinning::kActionNames.end(),
+                                      name) != skinning::kActionNames.end();
+}
+
+/// The version of labels since which people who sit, squat or cower have states of their own.
+constexpr int kPosturesSince = 4;
 
 /// The table has steps of the crowd, and a pose between two of them may be of the next motion.
 constexpr double kActionStepS = 0.25;
 
-template <typename Names>
-bool is_among(const std::string& name, const Names& names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool is_motion_action(const std::string& name) {
+  return std::find(kMotions.begin(), kMotions.end(), name) != kMotions.end();
 }
 
 }  // namespace
 
 void ActionsCheck::add(const formats::DatasetInfo& info, const formats::Image& image,
                        Findings& findings) {
+  if (!knows_postures_) knows_postures_ = label_version(info) >= kPosturesSince;
   std::map<std::int64_t, const formats::Person*> by_track;
   for (const formats::Person& person : image.people) by_track[person.track_id] = &person;
   for (const formats::Person& person : image.people) {
@@ -53,12 +62,12 @@ void ActionsCheck::add(const formats::DatasetInfo& info, const formats::Image& i
 }
 
 void ActionsCheck::check_names(const formats::Person& person, const json& names,
-                               Findings& findings) {
+                               Findings& findings) const {
   const auto fault = [&](const std::string& what) { findings.add("actions", person, what); };
   int motions = 0;
   for (const json& name : names) {
-    const bool is_motion = is_among(name.get<std::string>(), kMotions);
-    if (!is_motion && !is_among(name.get<std::string>(), kOthers)) {
+    const bool is_motion = is_motion_action(name.get<std::string>());
+    if (!is_motion && !is_other_action(name.get<std::string>())) {
       fault(fmt::format("{} is no action", name.dump()));
     }
     motions += is_motion ? 1 : 0;
@@ -69,10 +78,13 @@ void ActionsCheck::check_names(const formats::Person& person, const json& names,
   const auto does = [&](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
+  const bool is_unlike_posture = does("sit") != (person.state == "sitting") ||
+                                 (does("squat") || does("cower")) != (person.state == "squatting");
   // A library of a user's own may have no motion of falling.
   const bool is_unlike = (does("fall") != (person.state == "falling")) ||
                          (does("get_up") != (person.state == "getting_up")) ||
-                         (does("lie") && person.state != "lying");
+                         (does("lie") && person.state != "lying") ||
+                         (*knows_postures_ && is_unlike_posture);
   if (is_unlike) {
     fault(fmt::format("actions {}, but the state is {}", names.dump(), person.state));
   }
@@ -83,8 +95,9 @@ void ActionsCheck::check_names(const formats::Person& person, const json& names,
                       attributes->value("carries", "nothing")));
   }
   constexpr double kStandingMps = 1.2;
-  if (does("stand") && person.velocity.norm() > kStandingMps) {
-    fault(fmt::format("stands at {:.2f} m/s", person.velocity.norm()));
+  for (const char* motion : {"stand", "sit", "squat", "cower"}) {
+    if (!does(motion) || person.velocity.norm() <= kStandingMps) continue;
+    fault(fmt::format("action {} at {:.2f} m/s", motion, person.velocity.norm()));
   }
 }
 

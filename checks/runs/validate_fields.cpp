@@ -313,7 +313,8 @@ void FieldsCheck::add(const formats::DatasetInfo& /*info*/, const formats::Image
   auto& people = runs_[image.run][image.frame];
   constexpr double kOnStandM = 0.05;  // people higher than this are not on the ground
   for (const formats::Person& person : image.people) {
-    if (person.position.z() > kOnStandM) continue;
+    // Nor do those count who sit on props.
+    if (person.position.z() > kOnStandM || person.state == "sitting") continue;
     people.insert_or_assign(person.track_id, Walker{person.position.head<2>(), person.velocity});
   }
 }

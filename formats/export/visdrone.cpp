@@ -2,11 +2,14 @@
 // truncation and occlusion.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "formats/export/makers.h"
 #include "formats/export/sequences.h"
@@ -27,12 +30,14 @@ enum class Category : std::uint8_t {
   others = 11
 };
 
-/// Standing and walking people are pedestrians; in other poses they are "people".
+/// Standing and walking people are pedestrians; in other poses they are "people" (Zhu et al. 2021).
 Category visdrone_category(const Person& person) {
   if (person.is_ignored) return Category::ignored;
-  const bool is_down =
-      person.state == "lying" || person.state == "falling" || person.state == "getting_up";
-  return is_down ? Category::people : Category::pedestrian;
+  constexpr std::array<std::string_view, 5> kOtherPoses = {"lying", "falling", "getting_up",
+                                                           "sitting", "squatting"};
+  const bool is_other =
+      std::find(kOtherPoses.begin(), kOtherPoses.end(), person.state) != kOtherPoses.end();
+  return is_other ? Category::people : Category::pedestrian;
 }
 
 /// Trains are "others"; drones have no category: nothing.

@@ -61,9 +61,10 @@ ros::Box3 person_box(const Eigen::Vector3f& position, float yaw_rad, double radi
   return box;
 }
 
-std::vector<world::Stand> known_stands(const world::TraceHeader& header) {
+render::StandFloors known_floors(const world::TraceHeader& header) {
   const auto scenario = world::scenario_in_trace(header, "", world::TraceMeshes::left_out);
-  return scenario ? scenario->stands : std::vector<world::Stand>();
+  return scenario ? render::StandFloors(scenario->stands, scenario->sitters)
+                  : render::StandFloors({});
 }
 
 }  // namespace
@@ -107,7 +108,7 @@ FlightTopics::FlightTopics(const jobs::JobSpec& job, const Flight& flight,
       roles_(flight.header().role),
       radii_m_(flight.header().radius_m),
       statures_m_(std::move(statures_m)),
-      floors_(known_stands(flight.header())) {
+      floors_(known_floors(flight.header())) {
   const jobs::JobSpec run_job = jobs::job_of_run(job, 0);
   const std::uint64_t seed = jobs::run_seed(job, 0);
   latitude_deg_ = jobs::environment_of_run(run_job.environment, seed).latitude_deg;

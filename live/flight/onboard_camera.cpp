@@ -70,7 +70,7 @@ OnboardCamera::OnboardCamera(Surroundings place, const skinning::Population& pop
                              const world::TraceHeader& header,
                              const std::vector<sim::PlannedDrone>& drones, const ImageSize& size)
     : scenario_(std::move(place.scenario)),
-      people_(header, header.seed, population, place.styling, scenario_.stands),
+      people_(header, header.seed, population, place.styling, scenario_.stands, scenario_.sitters),
       renderer_(scenario_, population, place.light, {}, draft()) {
   for (const sim::PlannedDrone& drone : drones) {
     cameras_.push_back(shown_camera(drone.mission.camera, size));

@@ -36,7 +36,8 @@ std::vector<double> statures_m(const world::TraceHeader& header,
 
 PosedPeople::PosedPeople(const world::TraceHeader& header, std::uint64_t seed,
                          const skinning::Population& population, const skinning::Styling& styling,
-                         std::span<const world::Stand> stands)
+                         std::span<const world::Stand> stands,
+                         std::span<const world::Sitter> sitters)
     : population_(population),
       clips_(population),
       roles_(header.role),
@@ -45,7 +46,7 @@ PosedPeople::PosedPeople(const world::TraceHeader& header, std::uint64_t seed,
       postures_(render::stand_postures(header)),
       on_stands_(header.agent_count()),
       poses_on_stands_(population),
-      floors_(stands) {}
+      floors_(stands, sitters) {}
 
 skinning::PoseBlend PosedPeople::pose_on_stand(std::size_t agent, skinning::StandPosture posture,
                                                double time_s) {

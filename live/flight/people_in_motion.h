@@ -24,11 +24,11 @@ std::vector<double> statures_m(const world::TraceHeader& header,
 /// Computes the poses of a run's people; call it with moments in the order of time.
 class PosedPeople {
  public:
-  /// Assigns characters to the people of a run; `stands` are the scenario's. The population must
-  /// outlive this object.
+  /// Assigns characters to the people of a run; `stands` and `sitters` are the scenario's. The
+  /// population must outlive this object.
   PosedPeople(const world::TraceHeader& header, std::uint64_t seed,
               const skinning::Population& population, const skinning::Styling& styling,
-              std::span<const world::Stand> stands);
+              std::span<const world::Stand> stands, std::span<const world::Sitter> sitters);
 
   /// The scene with people and hazards at a time within the moment's step.
   render::Scene scene_at(const Moment& moment, double time_s);

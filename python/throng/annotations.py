@@ -338,13 +338,15 @@ class Annotations(Sequence[Mapping[str, Any]]):
 
     @property
     def states(self) -> list[str | None]:
-        """Activities: waiting, walking, running, following, panicking, lying, falling or getting_up."""
+        """Activities: waiting, walking, running, following, panicking, lying, falling, getting_up, sitting or
+        squatting."""
         return [record.get("state") for record in self.records]
 
     @property
     def actions(self) -> list[list[str]]:
         """Names of the actions of each person; empty without "actions" in outputs.annotations. A motion (stand, walk, run, turn, fall,
-        lie, get_up or sit) and others: look_around, use_phone, look_at_drone, panic, cheer, carry."""
+        lie, get_up, sit, squat or cower) and others: look_around, use_phone, look_at_drone, panic, cheer, lean, talk, call, film,
+        point, wave, clap, dance, eat, drink, smoke, read, look_back, carry."""
         return [self._items(record, "actions", str) for record in self.records]
 
     @property

@@ -76,7 +76,7 @@ std::span<const SkinPoint> PeopleFinder::head_points(std::uint32_t character,
 
 bool PeopleFinder::casts_shadow(const PersonInstance& instance,
                                 const camera::Camera& camera) const {
-  constexpr float kOnGroundM = 0.01F;
+  constexpr float kOnGroundM = 0.1F;  // so are people on benches, which differ in height
   if (instance.position.z() < kOnGroundM) return true;
   const double distance_m = (instance.position.cast<double>() - camera.pose.center()).norm();
   const double stature_m = population_->characters[instance.appearance.character].stature_m;

@@ -9,7 +9,8 @@ namespace throng::render {
 using skinning::PostureTime;
 using skinning::StandPosture;
 
-StandFloors::StandFloors(std::span<const world::Stand> stands)
+StandFloors::StandFloors(std::span<const world::Stand> stands,
+                         std::span<const world::Sitter> sitters)
     : stands_(stands.begin(), stands.end()) {
   for (const world::Stand& stand : stands_) {
     Eigen::AlignedBox2d box;
@@ -20,6 +21,11 @@ StandFloors::StandFloors(std::span<const world::Stand> stands)
     }
     boxes_.push_back(box);
   }
+  for (const world::Sitter& sitter : sitters) {
+    seats_.emplace_back(sitter.position.x(), sitter.position.y(), sitter.floor_m);
+  }
+  std::sort(seats_.begin(), seats_.end(),
+            [](const auto& a, const auto& b) { return a.x() < b.x(); });
 }
 
 float StandFloors::height_m(const Eigen::Vector2f& point) const {
@@ -28,6 +34,13 @@ float StandFloors::height_m(const Eigen::Vector2f& point) const {
     if (!boxes_[i].contains(place)) continue;
     const double height_m = world::elevation_m({&stands_[i], 1}, place);
     if (height_m > 0) return static_cast<float>(height_m);
+  }
+  constexpr double kOnSeatM = 0.01;  // sitters do not move, and nobody else comes so near
+  for (auto seat = std::lower_bound(
+           seats_.begin(), seats_.end(), place.x() - kOnSeatM,
+           [](const Eigen::Vector3d&at, double from_m) { return at.x() < from_m; });
+       seat != seats_.end() && seat->x() <= place.x() + kOnSeatM; ++seat) {
+    if ((seat->head<2>() - place).norm() <= kOnSeatM) return static_cast<float>(seat->z());
   }
   return 0;
 }
@@ -44,9 +57,10 @@ std::vector<std::optional<StandPosture>> stand_postures(const world::TraceHeader
   return postures;
 }
 
-PeopleOnStands::PeopleOnStands(const world::Trace& trace, std::span<const world::Stand> stands)
-    : trace_(&trace), floors_(stands), changes_(trace.agents()) {
-  if (stands.empty() || trace.state.empty()) return;
+PeopleOnStands::PeopleOnStands(const world::Trace& trace, std::span<const world::Stand> stands,
+                               std::span<const world::Sitter> sitters)
+    : trace_(&trace), floors_(stands, sitters), changes_(trace.agents()) {
+  if ((stands.empty() && sitters.empty()) || trace.state.empty()) return;
   const std::vector<std::optional<StandPosture>> postures = stand_postures(trace.header);
   std::vector<std::optional<StandPosture>> before(trace.agents());
   for (std::uint32_t step = 0; step < trace.steps(); ++step) {

@@ -1,4 +1,5 @@
-// People on stands: their height above the ground and their postures along a trace.
+// People on stands and on seats of props: their height above the ground and their postures along a
+// trace.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +9,24 @@
 #include <vector>
 
 #include "skinning/animate/spectator_pose.h"
+#include "world/props.h"
 #include "world/stand.h"
 #include "world/trace.h"
 
 namespace throng::render {
 
-/// The stands of a scenario, to find how high people are.
+/// The stands and the seats of a scenario, to find how high people are.
 class StandFloors {
  public:
-  explicit StandFloors(std::span<const world::Stand> stands);
-  /// Height of the floor (m); 0 outside of stands.
+  explicit StandFloors(std::span<const world::Stand> stands,
+                       std::span<const world::Sitter> sitters = {});
+  /// Height of the floor (m): of a stand's, or world::Sitter::floor_m on a seat; 0 elsewhere.
   float height_m(const Eigen::Vector2f& point) const;
 
  private:
   std::vector<world::Stand> stands_;
   std::vector<Eigen::AlignedBox2d> boxes_;  ///< around each stand
+  std::vector<Eigen::Vector3d> seats_;      ///< with their floors, by x
 };
 
 /// The posture that each state of a trace stands for; nothing if people in it walk.
@@ -31,7 +35,8 @@ std::vector<std::optional<skinning::StandPosture>> stand_postures(const world::T
 /// The postures of a trace's people.
 class PeopleOnStands {
  public:
-  PeopleOnStands(const world::Trace& trace, std::span<const world::Stand> stands);
+  PeopleOnStands(const world::Trace& trace, std::span<const world::Stand> stands,
+                 std::span<const world::Sitter> sitters);
 
   /// Whether an agent has a posture at a step.
   bool has_posture(std::size_t agent, std::size_t step) const;

@@ -110,7 +110,7 @@ void draw_row(const Run& run, const Environment& environment, const skinning::Po
   render::Renderer renderer(run.scenario, people, environment, {"software"});
   const bool rains = environment.weather == Weather::rain;
   const render::Animator animator(run.trace, people, {.umbrellas = rains ? kUmbrellas : 0},
-                                  run.scenario.stands);
+                                  run.scenario.stands, run.scenario.sitters);
   const double time_s = std::min(kShownS, run.trace.time_s.back());
   for (std::size_t column = 0; column < kViews.size(); ++column) {
     const camera::Camera camera = camera_at(run.scenario, kViews.at(column), width, height);

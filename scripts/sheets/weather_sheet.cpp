@@ -50,7 +50,7 @@ render::Frame draw(const Environment& environment, const world::Trace& trace,
   render::Renderer renderer(scenario, people, environment, {"software"});
   const bool rains = environment.weather == Weather::rain;
   const render::Animator animator(trace, people, {.umbrellas = rains ? kUmbrellas : 0},
-                                  scenario.stands);
+                                  scenario.stands, scenario.sitters);
   const camera::Camera camera{camera::intrinsics_from_hfov(kWidth, kHeight, 70 * kDegree),
                               camera::pose_looking({26, -4, 20}, 178 * kDegree, -36 * kDegree)};
   const render::Scene scene = animator.scene_at(kTimeS, 0);

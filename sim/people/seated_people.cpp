@@ -15,23 +15,47 @@ namespace {
 constexpr std::uint64_t kPeopleKeys = 1ULL << 32U;
 constexpr double kFacingSpreadDeg = 8;
 
-/// A spectator on a seat; `number` counts those of all stands.
+/// Somebody at a place; `number` counts all of them.
+Spectator person_at(const Eigen::Vector2d& place, double yaw_rad, std::uint64_t seed,
+                    std::uint64_t number) {
+  Spectator person;
+  person.key = derive_seed(seed, Stream::spectators, kPeopleKeys + number);
+  person.seat = place.cast<float>();
+  Random random(person.key, Stream::spectators);
+  const double turned_rad = random.uniform(-kFacingSpreadDeg, kFacingSpreadDeg) * kDegree;
+  person.yaw_rad = static_cast<float>(geometry::wrapped_rad(yaw_rad + turned_rad));
+  return person;
+}
+
+/// A spectator on a seat.
 Spectator seat_person(const world::Stand& stand, const world::Seat& seat, std::uint64_t seed,
                       std::uint64_t number) {
   const double yaw_rad = world::facing_rad(stand);
-  Spectator person;
-  person.key = derive_seed(seed, Stream::spectators, kPeopleKeys + number);
-  person.seat = seat.position.cast<float>();
+  Spectator person = person_at(seat.position, yaw_rad, seed, number);
   person.is_playing = !stand.band.empty();
   if (!person.is_playing) {
     person.ahead =
         (world::standing_ahead_m(stand) * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)))
             .cast<float>();
   }
-  Random random(person.key, Stream::spectators);
-  const double turned_rad = random.uniform(-kFacingSpreadDeg, kFacingSpreadDeg) * kDegree;
-  person.yaw_rad = static_cast<float>(geometry::wrapped_rad(yaw_rad + turned_rad));
   return person;
+}
+
+/// Adds the people on props, by prop; `number` is that of the first one.
+void add_sitters(const std::vector<world::Sitter>& sitters, std::uint64_t seed,
+                 std::uint64_t number, std::vector<Spectator>& people) {
+  const auto share_prop = [&](std::size_t i, std::size_t k) {
+    return k < sitters.size() && sitters[i].prop == sitters[k].prop;
+  };
+  std::int32_t groups = 0;
+  for (std::size_t i = 0; i < sitters.size(); ++i) {
+    Spectator& person =
+        people.emplace_back(person_at(sitters[i].position, sitters[i].yaw_rad, seed, number + i));
+    person.only_sits = true;
+    const bool is_first = i == 0 || !share_prop(i, i - 1);
+    if (is_first && share_prop(i, i + 1)) ++groups;
+    if (!is_first || share_prop(i, i + 1)) person.group = groups - 1;
+  }
 }
 
 /// Musicians play for a while, then raise their arms: by turns of some seconds.
@@ -46,7 +70,8 @@ Posture playing_posture(std::uint64_t key, double time_s) {
 
 }  // namespace
 
-Spectators take_seats(const std::vector<world::Stand>& stands, std::uint64_t seed, bool all_stay) {
+Spectators take_seats(const world::Scenario& scenario, std::uint64_t seed, bool all_stay) {
+  const std::vector<world::Stand>& stands = scenario.stands;
   std::size_t blocks = 0;
   for (const world::Stand& stand : stands) blocks += world::inner_aisles(stand) + 1;
   Spectators people;
@@ -74,10 +99,12 @@ Spectators take_seats(const std::vector<world::Stand>& stands, std::uint64_t see
       person.way.emplace(stand, seats[taken[departure.spectator]], aisles[departure.aisle]);
     }
   }
+  add_sitters(scenario.sitters, seed, number, people.stay);
   return people;
 }
 
 SpectatorNow spectator_at(const Spectator& person, const CheeringWaves& waves, double time_s) {
+  if (person.only_sits) return {person.seat, person.yaw_rad, Posture::sitting};
   if (person.is_playing) {
     return {person.seat, person.yaw_rad, playing_posture(person.key, time_s)};
   }

@@ -1,4 +1,5 @@
-// The spectators of a scenario's stands: their seats, and their paths when they leave.
+// The spectators of a scenario's stands, their seats and their paths when they leave; and those who
+// sit on props.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +24,8 @@ struct Spectator {
   double place = 0;  ///< of the block among all blocks, 0 to 1
   double rises_s = std::numeric_limits<double>::infinity();  ///< to leave
   bool is_playing = false;                                   ///< in a band: never sits
+  bool only_sits = false;                                    ///< on a prop
+  std::int32_t group = -1;                                   ///< of those on props; -1: alone
   std::optional<world::WayDown> way;                         ///< of those who leave
 };
 
@@ -33,14 +36,15 @@ struct SpectatorNow {
   Posture posture = Posture::sitting;
 };
 
-/// The spectators of all stands.
+/// The spectators of all stands, and the sitters.
 struct Spectators {
   std::vector<Spectator> stay;
   std::vector<Spectator> leave;  ///< in the order of the stands and world::departures()
 };
 
-/// Takes seats for all spectators. With `all_stay`, nobody leaves.
-Spectators take_seats(const std::vector<world::Stand>& stands, std::uint64_t seed, bool all_stay);
+/// Takes seats for all spectators; after them come the scenario's sitters, of whom neighbors on a
+/// prop are a group, numbered from 0. With `all_stay`, nobody leaves.
+Spectators take_seats(const world::Scenario& scenario, std::uint64_t seed, bool all_stay);
 
 /// A spectator at a time.
 SpectatorNow spectator_at(const Spectator& person, const CheeringWaves& waves, double time_s);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -52,7 +53,12 @@ class CrowdWithSpectators : public CrowdSource {
     header.role.resize(count(), world::AgentRole::spectator);
     header.radius_m.resize(count(), kSpectatorRadiusM);
     header.pref_speed_mps.resize(count(), kStairsMps);
-    header.group.resize(count(), -1);
+    header.group.resize(agents_, -1);
+    const auto last = std::max_element(header.group.begin(), header.group.end());
+    const std::int32_t first_group = last == header.group.end() ? 0 : *last + 1;
+    for (std::size_t i = leavers_; i < people_.size(); ++i) {
+      header.group.push_back(people_[i].group < 0 ? -1 : first_group + people_[i].group);
+    }
     return header;
   }
 
@@ -176,7 +182,7 @@ std::unique_ptr<CrowdSource> with_spectators(std::unique_ptr<CrowdSource> crowd,
                                              const world::Scenario& scenario, std::uint64_t seed,
                                              std::vector<Problem>& problems) {
   const bool is_recorded = !crowd->has_intents();
-  Spectators people = take_seats(scenario.stands, seed, is_recorded);
+  Spectators people = take_seats(scenario, seed, is_recorded);
   if (people.stay.empty() && people.leave.empty()) return crowd;
   constexpr std::size_t kMaxStates = std::numeric_limits<std::uint8_t>::max();
   if (const std::size_t states = crowd->header(seed).state_names.size();

@@ -17,7 +17,7 @@ namespace throng::annotate {
 
 /// The version of the labels, which grows when the meaning of one changes (docs/formats_coco.md).
 /// It is `info.version` of COCO files and stands in `schema_versions` of dataset.json.
-inline constexpr const char* kLabelVersion = "3";
+inline constexpr const char* kLabelVersion = "4";
 
 /// The kinds in the order of the table that ground_truth_kinds() returns.
 enum class GroundTruth : std::uint8_t {

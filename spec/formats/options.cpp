@@ -20,8 +20,8 @@ const std::vector<Property>& properties() {
       {"sex", {"female", "male"}},
       {"age_band", {"child", "teenager", "adult", "senior"}},
       {"state",
-       {"waiting", "walking", "running", "following", "panicking", "lying", "falling",
-        "getting_up"}},
+       {"waiting", "walking", "running", "following", "panicking", "lying", "falling", "getting_up",
+        "sitting", "squatting"}},
       {"carries", {"nothing", "backpack", "shoulder bag", "handbag", "umbrella"}},
   };
   return table;

@@ -77,6 +77,48 @@ TEST(PeopleRules, TheTogetherAreOfOneGroup) {
   EXPECT_TRUE(any_with(group_faults(nullptr, nullptr), "their groups are null and null"));
 }
 
+/// Faults of somebody in a state, with these actions, in a dataset with a version of labels.
+std::vector<std::string> posture_faults(const std::string& state, const json& actions,
+                                        const char* version = annotate::kLabelVersion,
+                                        double speed_mps = 0) {
+  const throng::testing::TemporaryFolder folder;
+  formats::DatasetInfo info = formats::hand_made::info(folder.path());
+  info.annotations.emplace_back("actions");
+  write_file_atomically(
+      folder.path() / formats::kCocoFile,
+      fmt::format("{{\"info\":{{\"version\":\"{}\"}},\n\"images\":[]}}\n", version));
+  formats::Image image = formats::hand_made::image();
+  formats::Person person = formats::hand_made::person(3, {1, 1, 1, 1}, {1, 1, 1, 1}, 1);
+  person.state = state;
+  person.velocity = {speed_mps, 0};
+  person.record["actions"] = actions;
+  person.record["together_with"] = json::array();
+  json track = *person.track;
+  track["group"] = nullptr;
+  person.track = std::make_shared<const json>(track);
+  image.people = {person};
+  return found_by([&](Findings& findings) {
+    ActionsCheck check;
+    check.add(info, image, findings);
+  });
+}
+
+TEST(PeopleRules, StatesAreThoseOfPostures) {
+  EXPECT_THAT(posture_faults("sitting", {"sit", "drink"}), IsEmpty());
+  EXPECT_THAT(posture_faults("squatting", {"squat", "use_phone"}), IsEmpty());
+  EXPECT_THAT(posture_faults("squatting", {"cower"}), IsEmpty());
+  EXPECT_THAT(posture_faults("waiting", {"stand", "talk"}), IsEmpty());
+  EXPECT_TRUE(any_with(posture_faults("waiting", {"sit"}), "but the state is waiting"));
+  EXPECT_TRUE(any_with(posture_faults("sitting", {"stand"}), "but the state is sitting"));
+  EXPECT_TRUE(any_with(posture_faults("sitting", {"squat"}), "but the state is sitting"));
+  EXPECT_TRUE(any_with(posture_faults("panicking", {"cower"}), "but the state is panicking"));
+  EXPECT_TRUE(any_with(posture_faults("sitting", {"sit"}, annotate::kLabelVersion, 1.5),
+                       "action sit at 1.50 m/s"));
+  EXPECT_TRUE(any_with(posture_faults("sitting", {"sit", "squat"}), "2 of"));
+  EXPECT_TRUE(any_with(posture_faults("sitting", {"sit", "yawn"}), "is no action"));
+  EXPECT_THAT(posture_faults("waiting", {"sit"}, "3"), IsEmpty()) << "as of former versions";
+}
+
 /// Faults in the sexes of eight characters, of whom the first `dresses` wear dresses.
 std::vector<std::string> sex_faults(int dresses, const std::function<bool(int)>& is_male) {
   json manifest = {{"runs", json::array()}};

@@ -161,8 +161,8 @@ TEST(BodyRules, PlacesAreBelowBodies) {
 TEST(BodyRules, StatesAreKnown) {
   expect_body("state annotation 103 a state that nobody can be in: flying",
               [](formats::Person& p) { p.state = "flying"; });
-  for (const char* state :
-       {"waiting", "running", "following", "panicking", "lying", "falling", "getting_up", ""}) {
+  for (const char* state : {"waiting", "running", "following", "panicking", "lying", "falling",
+                            "getting_up", "sitting", "squatting", ""}) {
     formats::Image image = with_walker();
     image.people[0].state = state;
     EXPECT_FALSE(any_with(body_faults(image), "state")) << state;

@@ -153,6 +153,23 @@ TEST(HandMadeVisDrone, HasClassesOfTruncationAndOcclusion) {
   EXPECT_TRUE(mot.has("train/sequences/run002-d1/0000005.jpg"));
 }
 
+TEST(HandMadeVisDrone, CallsThoseWhoNeitherStandNorWalkPeople) {
+  const auto category = [](const std::string& state) {
+    Export out;
+    Image image = crossing();
+    image.people.resize(1);
+    image.people[0].state = state;
+    out.run("visdrone-det", {image});
+    return parse_numbers(out.text("train/annotations/run002-d1-000004.txt")).at(5);
+  };
+  for (const char* state : {"waiting", "walking", "running", "following", "panicking"}) {
+    EXPECT_EQ(category(state), 1) << state;
+  }
+  for (const char* state : {"lying", "falling", "getting_up", "sitting", "squatting"}) {
+    EXPECT_EQ(category(state), 2) << state;
+  }
+}
+
 TEST(HandMadeVisDrone, DrawsTheLineOfOcclusionAtAHalf) {
   const auto occlusion = [](double visibility) {
     Export out;

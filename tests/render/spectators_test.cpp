@@ -1,11 +1,16 @@
 // People on a stand, with the baked population where it has been built.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <tuple>
 
 #include "render/animator.h"
+#include "render/props/prop_shapes.h"
 #include "tests/render/stage.h"
+#include "world/clutter/sitters.h"
 #include "world/stand_seats.h"
 
 namespace throng::render {
@@ -93,6 +98,74 @@ TEST_F(OnAStand, PeopleAreOnTheirSeats) {
     EXPECT_LE(mask.box.max().y(), person.amodal_box.max().y() + 1);
     EXPECT_GE(mask.box.min().x(), person.amodal_box.min().x() - 1);
     EXPECT_LE(mask.box.max().x(), person.amodal_box.max().x() + 1);
+  }
+}
+
+TEST_F(OnAStand, SittersOfPropsAreOnTheirSeats) {
+  scenario_.stands.clear();
+  for (const auto& [kind, x, scale] : {std::tuple(world::PropKind::bench, -4.0, 1.0),
+                                       std::tuple(world::PropKind::beer_table, 0.0, 1.1),
+                                       std::tuple(world::PropKind::cafe_table, 4.0, 0.95)}) {
+    world::Prop prop;
+    prop.kind = kind;
+    prop.position = {x, 2};
+    prop.scale = scale;
+    scenario_.props.push_back(prop);
+  }
+  world::seat_people({1, 0}, scenario_);
+  ASSERT_EQ(scenario_.sitters.size(), 3U + 6 + 2);
+  seats_.clear();
+  for (const world::Sitter& sitter : scenario_.sitters) {
+    seats_.emplace_back().position = sitter.position;
+  }
+  const world::Trace trace = made_trace(seats_, 0);
+  const Animator animator(trace, people_, {}, {}, scenario_.sitters);
+  const Frame frame = draw(animator.scene_at(2.05, 0));
+  ASSERT_EQ(frame.people.size(), seats_.size());
+  for (const PersonInView& person : frame.people) {
+    const world::Sitter& sitter = scenario_.sitters[person.agent];
+    const world::Prop& prop = scenario_.props[sitter.prop];
+    const double seat_m = prop.scale * world::prop_seats(prop.kind)[0].height_m;
+    EXPECT_NEAR(person.position.z(), seat_m - world::kSeatHeightM, 1e-6);
+    EXPECT_NEAR((person.hips.head<2>() - sitter.position).norm(), 0, 0.12);
+    EXPECT_NEAR(person.hips.z() - seat_m, 0.1, 0.07) << "a hand above the seat";
+    EXPECT_TRUE(person.actions.has(skinning::Action::sit));
+  }
+  EXPECT_EQ(animator.actions_at(0, 7), skinning::Actions(skinning::Action::sit));
+}
+
+/// Whether a ray straight down meets a triangle near a height.
+bool is_surface_at(const PropMesh& mesh, const Vector2d& place, double height_m, double slack_m) {
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    std::array<Vector3d, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& at = mesh.vertices[mesh.indices[i + k]].position;
+      corner.at(k) = Vector3d(at[0], at[1], at[2]);
+    }
+    Eigen::Matrix3d lines;
+    for (int k = 0; k < 3; ++k) {
+      lines.col(k) << corner.at(static_cast<std::size_t>(k)).head<2>(), 1;
+    }
+    if (std::abs(lines.determinant()) < 1e-9) continue;
+    const Vector3d shares = lines.inverse() * Vector3d(place.x(), place.y(), 1);
+    if (shares.minCoeff() < 0) continue;
+    const double z = shares.dot(Vector3d(corner[0].z(), corner[1].z(), corner[2].z()));
+    if (std::abs(z - height_m) <= slack_m) return true;
+  }
+  return false;
+}
+
+TEST(PropSeats, AreOnTheShapesOfAllLooks) {
+  for (std::size_t i = 0; i < world::kPropKinds; ++i) {
+    world::Prop prop;
+    prop.kind = static_cast<world::PropKind>(i);
+    for (const world::PropSeat& seat : world::prop_seats(prop.kind)) {
+      for (prop.look = 0; prop.look < 24; ++prop.look) {
+        EXPECT_TRUE(is_surface_at(prop_shape(prop, 7), seat.position, seat.height_m, 0.025))
+            << world::prop_type(prop.kind).name << " at " << seat.position.transpose()
+            << " of look " << prop.look;
+      }
+    }
   }
 }
 

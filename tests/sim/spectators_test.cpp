@@ -133,6 +133,41 @@ TEST(Spectators, FollowTheSeedAndChangeNobodyElse) {
   }
 }
 
+TEST(Sitters, SitForTheWholeRunWithoutAnyStand) {
+  json square = blueprint(0);
+  square.erase("stands");
+  square["props"] = {{{"kind", "bench"}, {"position", {-8, 8}}, {"yaw_deg", 180}},
+                     {{"kind", "beer_table"}, {"position", {-3, 8}}}};
+  const world::Trace without = simulate_trace(load_square(square), 20);
+  square["sitters"] = {{"share", 1}, {"seed", 2}};
+  const world::Scenario scenario = load_square(square);
+  const world::Trace trace = simulate_trace(scenario, 20);
+  ASSERT_EQ(without.agents(), 3U);
+  ASSERT_EQ(scenario.sitters.size(), 9U);
+  ASSERT_EQ(trace.agents(), 3U + 9);
+  EXPECT_GT(trace.header.group[3],
+            *std::max_element(without.header.group.begin(), without.header.group.end()));
+  for (std::size_t i = 0; i < 9; ++i) {
+    const world::Sitter& sitter = scenario.sitters[i];
+    EXPECT_EQ(trace.header.role[3 + i], AgentRole::spectator);
+    // Neighbors are a group, numbered after the crowd's.
+    EXPECT_EQ(trace.header.group[3 + i] - trace.header.group[3], static_cast<int>(sitter.prop));
+    for (std::size_t step = 0; step < trace.steps(); ++step) {
+      const std::size_t at = trace.at(step, 3 + i);
+      ASSERT_TRUE(trace.present(step, 3 + i));
+      ASSERT_EQ(state_at(trace, step, 3 + i), "sitting");
+      ASSERT_LT((trace.position[at].cast<double>() - sitter.position).norm(), 1e-4);
+      ASSERT_GT(std::cos(static_cast<double>(trace.yaw_rad[at]) - sitter.yaw_rad), 0.98);
+      ASSERT_EQ(trace.velocity[at].norm(), 0);
+    }
+  }
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    for (std::size_t agent = 0; agent < 3; ++agent) {
+      ASSERT_EQ(trace.position[trace.at(step, agent)], without.position[without.at(step, agent)]);
+    }
+  }
+}
+
 TEST(Departures, ComeToTheFeetOneAfterTheOther) {
   const world::Stand stand = load_square(blueprint(100, 5)).stands[0];
   const std::vector<world::Departure> all = world::departures(stand);

@@ -16,6 +16,7 @@
 #include "base/geometry/rectangle.h"
 #include "base/geometry/triangulate.h"
 #include "world/clutter/clutter.h"
+#include "world/clutter/sitters.h"
 #include "world/fields/document_values.h"
 #include "world/scenario.h"
 #include "world/stand_seats.h"
@@ -235,6 +236,20 @@ const FieldTable<Clutter>& clutter_fields() {
   return fields;
 }
 
+const FieldTable<Sitters>& sitter_fields() {
+  static const FieldTable<Sitters> fields = [] {
+    FieldTable<Sitters> table;
+    table
+        .add("share", "", "", fields::numbers(0, 1), at(&Sitters::share),
+             "Share of all seats that are taken.")
+        .required();
+    table.add("seed", "", "", fields::integers(0, kMaxId), at(&Sitters::seed),
+              "Chooses the seats.");
+    return table;
+  }();
+  return fields;
+}
+
 }  // namespace
 
 fields::Values prop_kinds() { return fields::one_of_words(kind_names()); }
@@ -273,6 +288,14 @@ void strew_clutter(Scenario& scenario, const json& value, const FieldLocation& p
     return;
   }
   strew(clutter, scenario);
+}
+
+fields::Values sitter_values() { return fields::object_with(sitter_fields().schema()); }
+
+void read_sitters(Scenario& scenario, const json& value, const FieldLocation& place) {
+  Sitters sitters;
+  sitter_fields().read_checked(value, sitters, place);
+  if (place.problems.empty()) seat_people(sitters, scenario);
 }
 
 void scatter_props(Scenario& scenario, const json& list, const FieldLocation& place) {

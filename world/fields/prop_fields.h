@@ -35,4 +35,11 @@ fields::Values clutter_values();
 void strew_clutter(Scenario& scenario, const nlohmann::json& value,
                    const fields::FieldLocation& place);
 
+/// Rules of a scenario's "sitters".
+fields::Values sitter_values();
+
+/// Reads "sitters" and seats people on the props of a scenario whose other parts are already read.
+void read_sitters(Scenario& scenario, const nlohmann::json& value,
+                  const fields::FieldLocation& place);
+
 }  // namespace throng::world

@@ -180,6 +180,9 @@ void add_parts(FieldTable<Scenario>& table) {
   table.add_read(
       "clutter", clutter_values(), strew_clutter,
       "Props that a seed strews along walls and roads and on lawns, where nobody walks.");
+  table.add_read("sitters", sitter_values(), read_sitters,
+                 "People who sit on benches and at tables for the whole run, and are labeled as "
+                 "everybody; default: none.");
 }
 
 }  // namespace

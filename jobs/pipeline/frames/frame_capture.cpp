@@ -44,7 +44,7 @@ FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed,
       run_seed_(run_seed),
       trace_(&trace),
       clock_(clock),
-      animator_(trace, population, job.styling, scenario.stands),
+      animator_(trace, population, job.styling, scenario.stands, scenario.sitters),
       lens_(renderer, population),
       looks_ahead_(annotate::holds(job.outputs.annotations, annotate::GroundTruth::flow_occlusion)),
       ahead_(job.drones.size()) {

@@ -95,7 +95,8 @@ void write_actions_table(RunOutput& output) {
   const RunEnvironment environment = environment_of_run(job.environment, seed);
   const skinning::Styling styling = styling_in(job, environment.light.weather);
   const skinning::Population population = skinning::load_population(skinning::population_folder());
-  const render::Animator animator(output.trace, population, styling, output.scenario.stands);
+  const render::Animator animator(output.trace, population, styling, output.scenario.stands,
+                                  output.scenario.sitters);
   const annotate::ActionFacts facts(output.trace, population, styling);
   output.publication.add(
       ground_truth_file(GroundTruth::actions, run_name(output.run)),

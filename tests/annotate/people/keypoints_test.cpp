@@ -236,7 +236,19 @@ TEST(PersonFacts, ActivityFollowsFromStateFlagsAndSpeed) {
   EXPECT_EQ(classify_activity("FollowDrone", kCalm, none, 0.1), Activity::waiting);
   EXPECT_EQ(classify_activity("Walk", kCalm, none, 1.3), Activity::walking);
   EXPECT_EQ(classify_activity("Walk", kCalm, none, 2.5), Activity::running);
+  EXPECT_EQ(classify_activity("sitting", kCalm, skinning::Actions(Action::sit), 0),
+            Activity::sitting);
+  EXPECT_EQ(
+      classify_activity("Walk", kCalm, skinning::Actions(Action::squat, Action::use_phone), 0),
+      Activity::squatting);
+  EXPECT_EQ(
+      classify_activity("Flee", kCalm | world::kPanicked, skinning::Actions(Action::cower), 0),
+      Activity::squatting);
+  EXPECT_EQ(classify_activity("Walk", kFell, skinning::Actions(Action::lie), 0), Activity::lying);
   EXPECT_EQ(to_string(Activity::running), "running");
+  EXPECT_EQ(to_string(Activity::getting_up), "getting_up");
+  EXPECT_EQ(to_string(Activity::sitting), "sitting");
+  EXPECT_EQ(to_string(Activity::squatting), "squatting");
 }
 
 }  // namespace

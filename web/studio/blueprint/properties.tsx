@@ -185,7 +185,7 @@ export function Properties({ document, element, onChange, onRemove }: Properties
   );
 }
 
-/** Name, ground, and the rectangle or polygon that people escape from. */
+/** Name, ground, sitters, and the rectangle or polygon that people escape from. */
 export function BlueprintFields({ document, onChange }: { document: JsonObject; onChange: (document: JsonObject) => void }) {
   const set = (path: Path, value: Json | undefined) => onChange((withValue(document, path, value) ?? {}) as JsonObject);
   const corner = (rectangle: string, end: string, axis: number, label: string) => {
@@ -229,6 +229,14 @@ export function BlueprintFields({ document, onChange }: { document: JsonObject; 
         choices={["pavers", "asphalt", "grass", "concrete", "dirt"]}
         usual={null}
         onChange={(value) => set(["ground", "material"], value)}
+      />
+      <TextInput
+        id="blueprint-sitters"
+        label="Share of seats taken, 0 to 1"
+        isNumber
+        usual="0"
+        value={valueAt(document, ["sitters", "share"])}
+        onChange={(value) => set(value === undefined ? ["sitters"] : ["sitters", "share"], value)}
       />
       {rectangle("ground", "Drawn ground")}
       {valueAt(document, ["inside", "corners"]) === undefined ? (

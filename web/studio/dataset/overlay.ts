@@ -46,6 +46,8 @@ const kStateColors: Record<string, string> = {
   lying: "#b8860b",
   falling: "#e0702c",
   getting_up: "#d9c27a",
+  sitting: "#5fb8b0",
+  squatting: "#b07ab0",
 };
 const kExitColors: Record<string, string> = {
   idle: "#c9d1d7",
