@@ -71,7 +71,6 @@ const char* supercategory(const world::SemanticClassInfo& known) {
 /// The class of a segment that is no person.
 world::SemanticClass segment_class(std::uint32_t number, const Segment& segment) {
   using world::SemanticClass;
-  if (number < kFirstBuilding) return SemanticClass::umbrella;
   const SemanticClass shown = segment.surface;
   const bool is_part = shown == SemanticClass::roof || shown == SemanticClass::door;
   return is_part ? SemanticClass::building : shown;
@@ -219,7 +218,7 @@ class PanopticExporter : public Exporter {
          {std::tuple{"building", "place", true, SemanticClass::building},
           {"prop", "place", true, SemanticClass::object},
           {"ground", "place", false, SemanticClass::pavement},
-          {"umbrella", "accessory", true, SemanticClass::umbrella},
+          {"accessory", "accessory", true, SemanticClass::umbrella},
           {"drone", "vehicle", true, SemanticClass::drone}}) {
       add(name, group, is_thing, color_of(surface));
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "skinning/animate/spectator_pose.h"
+#include "skinning/appearance.h"
 #include "world/stand.h"
 #include "world/trace.h"
 
@@ -24,6 +25,9 @@ class StandFloors {
   std::vector<world::Stand> stands_;
   std::vector<Eigen::AlignedBox2d> boxes_;  ///< around each stand
 };
+
+/// Where an agent is seen, which its appearance depends on.
+skinning::Place place_of(const world::TraceHeader& header, std::size_t agent);
 
 /// The posture that each state of a trace stands for; nothing if people in it walk.
 std::vector<std::optional<skinning::StandPosture>> stand_postures(const world::TraceHeader& header);

@@ -1,7 +1,9 @@
 #include "skinning/animate/sitting.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "base/geometry/angle.h"
 #include "skinning/animate/posture.h"
@@ -21,8 +23,9 @@ Eigen::Vector3f joint(const Walker& walker, Bone bone) { return walker.joints[in
 
 /// Whether a hand holds an item where it is.
 bool is_busy(const Walker& walker, Side side) {
-  const auto grip = find_grip(walker.manner.carries, walker.joints);
-  return grip && grip->hand == on(side, Bone::left_hand);
+  const std::vector<Grip> grips = find_grips(walker.manner.carries, walker.joints);
+  return std::any_of(grips.begin(), grips.end(),
+                     [&](const Grip& grip) { return grip.hand == on(side, Bone::left_hand); });
 }
 
 /// The feet of a sitter stay where they are while the body rises and moves ahead.
@@ -60,10 +63,10 @@ Figure sit(const Walker& walker, bool forward, double aside) {
   trunk.chest_yaw = 9 * kDegree * aside;
   trunk.head_down = (forward ? -18 : 0) * kDegree;
   pose_trunk(walker, trunk, figure.pose);
-  const Arm arm = {12, 40, 6 + walker.manner.arms_out_deg, 10};
-  pose_arms(walker, {arm, arm}, figure.pose);
   const double hips_m = kSeatM + kHipsShare * static_cast<double>(walker.stature_m);
   figure.pose.shift.z() = static_cast<float>(hips_m) - joint(walker, Bone::left_thigh).z();
+  const Arm arm = {12, 40, 6 + walker.manner.arms_out_deg, 10};
+  pose_arms(walker, {arm, arm}, figure.pose);
   put_feet_before_seat(standing, figure);
   rest_hands(walker, forward, figure.pose);
   return figure;

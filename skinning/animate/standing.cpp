@@ -41,9 +41,9 @@ Figure standing(const Walker& walker, Trunk trunk, double breath, double sway_m)
   Figure figure;
   trunk.lean += (1.0 + 0.4 * breath) * kDegree;
   pose_trunk(walker, trunk, figure.pose);
-  pose_arms(walker, hanging_arms(walker.manner, breath), figure.pose);
   figure.pose.shift.y() = static_cast<float>(sway_m);
   put_feet(walker, figure);
+  pose_arms(walker, hanging_arms(walker.manner, breath), figure.pose);
   return figure;
 }
 

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 26;
+constexpr int kBuilderVersion = 27;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -219,7 +219,7 @@ class Bakery {
     for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
       if (level > 0) {
-        const std::size_t carried = item ? item->indices.size() / 3 : 0;
+        const std::size_t carried = item && !is_led(carries) ? item->indices.size() / 3 : 0;
         const std::size_t triangles = kDetailLevels[level].triangles - carried;
         asset.levels.push_back(hull.level(triangles, image, extent,
                                           bake_slack_m(level, dressed.stature_m),
