@@ -31,7 +31,7 @@ std::vector<Grip> find_grips(Carry carry, const Joints& neutral) {
   }
   if (carry == Carry::suitcase) {
     // Beside the hip and behind it, the arm not quite straight.
-    return {{Bone::right_hand, shoulder + arm * Eigen::Vector3f(-0.26F, -0.28F, -0.86F), kStill}};
+    return {{Bone::right_hand, shoulder + arm * Eigen::Vector3f(-0.22F, -0.24F, -0.97F), kStill}};
   }
   // As far ahead as a slightly bent arm reaches in the neutral stance.
   const auto ahead = [&](float aside_m) {
@@ -56,7 +56,7 @@ Stick find_stick(const Joints& neutral) {
   const Eigen::Vector3f& elbow = neutral[index_from(Bone::right_forearm)];
   const Eigen::Vector3f& wrist = neutral[index_from(Bone::right_hand)];
   const Eigen::Vector3f palm = wrist + kPalmOfForearm * (wrist - elbow);
-  return {palm, {wrist.x() + 0.4F * wrist.z(), palm.y() - 0.03F, 0}};
+  return {palm, {wrist.x() + 0.34F * wrist.z(), palm.y() - 0.03F, 0}};
 }
 
 }  // namespace throng::skinning

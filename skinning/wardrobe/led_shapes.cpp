@@ -35,7 +35,7 @@ void add_walking_stick(Shape& shape, const Site& site) {
 
 void add_suitcase(Shape& shape, const Site& site) {
   // A case for the hold (0.58 x 0.40 x 0.24 m) on two wheels, whose handle is pulled out.
-  constexpr float kToHandM = 1.05F;  // from the axle
+  constexpr float kToHandM = 1.1F;  // from the axle
   constexpr float kWheelM = 0.04F;
   const Vector3f hand = find_grips(Carry::suitcase, site.person->joints).front().point;
   const float up = std::min(hand.z() - kWheelM, 0.95F * kToHandM);
@@ -146,7 +146,7 @@ void add_bicycle(Shape& shape, const Site& site) {
     rod(crank, rear, 0.01F);
   }
   add_box(shape, {seat + Vector3f(-0.06F, 0, 0.13F),
-                  {0.13F, 0.075F, 0.035F},
+                  {0.13F, 0.065F, 0.025F},
                   kStill,
                   site.of_shape({4, 4, 3, 3, 3}),
                   site.of_shape({8, 6, 4, 3, 3})});

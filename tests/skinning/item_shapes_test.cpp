@@ -51,7 +51,7 @@ TEST(ItemShapes, NothingHasNoShape) {
 TEST(ItemShapes, EveryLevelHasTheItemWithFewerTriangles) {
   const DressedPerson person = boxy_person();
   for (const Carry carry : kItems) {
-    std::size_t before = is_led(carry) ? 3 * 700 : 3 * 500;
+    std::size_t before = is_led(carry) ? 3 * 1100 : 3 * 500;
     for (int level = 0; level < 7; ++level) {
       const auto item = make_item(carry, person, level);
       ASSERT_TRUE(item.has_value());
