@@ -69,7 +69,7 @@ const char* supercategory(const world::SemanticClassInfo& known) {
 }
 
 /// The class of a segment that is no person.
-world::SemanticClass segment_class(std::uint32_t number, const Segment& segment) {
+world::SemanticClass segment_class(const Segment& segment) {
   using world::SemanticClass;
   const SemanticClass shown = segment.surface;
   const bool is_part = shown == SemanticClass::roof || shown == SemanticClass::door;
@@ -261,7 +261,7 @@ class PanopticExporter : public Exporter {
       std::size_t category = 0;
       bool is_crowd = false;
       if (number >= kFirstUmbrella) {
-        category = has_classes_ ? category_of(segment_class(number, segment)) - 1
+        category = has_classes_ ? category_of(segment_class(segment)) - 1
                                 : classes + place_of(number);
       } else if (const auto person = people.find(number); person != people.end()) {
         category = person->second->category;

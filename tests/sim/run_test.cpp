@@ -493,7 +493,9 @@ TEST(LoadPeople, WhoLeadsSomethingTakesUpMoreRoomAndIsSlower) {
   const auto scenario =
       scenarios::find_scenario(source_folder() / "scenarios", "shopping_street/everyday");
   const crowd::Simulation alone = load_people(scenario, 7, {});
-  const crowd::Simulation people = load_people(scenario, 7, {.leading = 0.3});
+  CrowdSpec spec;
+  spec.leading = 0.3;
+  const crowd::Simulation people = load_people(scenario, 7, spec);
   std::size_t leading = 0;
   for (std::uint32_t agent = 0; agent < people.agent_count(); ++agent) {
     const bool leads = skinning::is_leading(7, agent, 0.3);
