@@ -21,7 +21,7 @@ struct Appearance {
 };
 
 /// Where an agent is seen.
-enum class Place : std::uint8_t { ground, stand };
+enum class Spot : std::uint8_t { ground, stand };
 
 /// Assigns a character and colors to an agent. Agents with similar ids have different characters:
 /// with n characters in the run, equal ones are more than n / 2 - 1 ids apart and have different
@@ -30,7 +30,7 @@ enum class Place : std::uint8_t { ground, stand };
 /// ages of `styling`.
 Appearance sample_appearance(const Population& population, std::uint64_t run_seed,
                              std::uint32_t agent, const Styling& styling = {},
-                             Place place = Place::ground);
+                             Spot spot = Spot::ground);
 
 /// The first appearance of a given character in a run, even if the styling excludes it.
 Appearance appearance_as(const Population& population, std::uint32_t character,

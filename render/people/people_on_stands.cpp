@@ -32,9 +32,9 @@ float StandFloors::height_m(const Eigen::Vector2f& point) const {
   return 0;
 }
 
-skinning::Place place_of(const world::TraceHeader& header, std::size_t agent) {
-  return header.role[agent] == world::AgentRole::spectator ? skinning::Place::stand
-                                                           : skinning::Place::ground;
+skinning::Spot spot_of(const world::TraceHeader& header, std::size_t agent) {
+  return header.role[agent] == world::AgentRole::spectator ? skinning::Spot::stand
+                                                           : skinning::Spot::ground;
 }
 
 std::vector<std::optional<StandPosture>> stand_postures(const world::TraceHeader& header) {

@@ -27,7 +27,7 @@ class StandFloors {
 };
 
 /// Where an agent is seen, which its appearance depends on.
-skinning::Place place_of(const world::TraceHeader& header, std::size_t agent);
+skinning::Spot spot_of(const world::TraceHeader& header, std::size_t agent);
 
 /// The posture that each state of a trace stands for; nothing if people in it walk.
 std::vector<std::optional<skinning::StandPosture>> stand_postures(const world::TraceHeader& header);
