@@ -20,7 +20,7 @@ struct Appearance {
   std::array<Rgb, kTintCount> tint{};  ///< by skinning::Tint; white if unused
 };
 
-/// Where an agent is seen.
+/// The kind of place at which an agent is seen.
 enum class Spot : std::uint8_t { ground, stand };
 
 /// Assigns a character and colors to an agent. Agents with similar ids have different characters:

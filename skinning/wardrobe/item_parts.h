@@ -21,7 +21,7 @@ inline const Eigen::Vector2f kPlain(0.75F, 0.25F);
 inline const Eigen::Vector2f kDark(0.75F, 0.68F);
 inline const Eigen::Vector2f kBlack(0.75F, 0.93F);
 
-/// What stays where it is in model space (kStillBone).
+/// The bone of parts that stay where they are in model space (kStillBone).
 inline constexpr Bone kStill{kStillBone};
 
 BoneWeights all_on(Bone bone);

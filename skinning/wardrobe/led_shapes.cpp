@@ -10,7 +10,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-// Of rods of coarse shapes less is seen than their corners.
+// Rods of coarse shapes are too thin for their corners to be seen.
 int rod_sides(const Site& site) { return site.of_shape({6, 4, 4, 3, 3}); }
 
 // A wheel in one piece that stays where it is.

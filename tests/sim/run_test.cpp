@@ -489,7 +489,7 @@ TEST(LoadPeople, AreThoseWhoRunAndHaveNoPathsYet) {
   }
 }
 
-TEST(LoadPeople, WhoLeadsSomethingTakesUpMoreRoomAndIsSlower) {
+TEST(LoadPeople, LeadersTakeUpMoreRoomAndAreSlower) {
   const auto scenario =
       scenarios::find_scenario(source_folder() / "scenarios", "shopping_street/everyday");
   const crowd::Simulation alone = load_people(scenario, 7, {});
