@@ -47,7 +47,7 @@ struct CharacterCopy {
   std::uint32_t copy;
 };
 
-// What agents may have with them.
+// A kind of what agents have with them.
 enum class With : std::uint8_t { no_umbrella, umbrella, led };
 
 // Characters of the ages with what they may have: all of them, or a share in an order of the run's

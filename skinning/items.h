@@ -3,7 +3,7 @@
 // Items are procedural meshes of boxes, ribbons and rods around the dressed person in the neutral
 // stance. A backpack moves with the chest, a shoulder bag with the hips (its strap runs across the
 // trunk), a handbag and a walking stick with the right hand. An open umbrella moves with the chest,
-// so that it stays upright, and the arm reaches for its grip. Led things stay level on the ground,
+// so that it stays upright, and the arm reaches for its grip. Led objects stay level on the ground,
 // turned as the person is, and hands reach for their handles.
 #pragma once
 

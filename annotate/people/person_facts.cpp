@@ -183,7 +183,7 @@ PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& 
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     const skinning::Appearance appearance = skinning::sample_appearance(
         population, trace.header.seed, static_cast<std::uint32_t>(agent), styling,
-        render::spot_of(trace.header, agent));
+        render::find_spot(trace.header, agent));
     const std::int32_t group = agent < trace.header.group.size() ? trace.header.group[agent] : -1;
     fixed_.push_back(fmt::format(
         R"(,"group":{},"attributes":{})", group < 0 ? "null" : std::to_string(group),

@@ -17,7 +17,7 @@ std::vector<skinning::Appearance> sample_looks(const world::TraceHeader& header,
   std::vector<skinning::Appearance> looks;
   for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
     looks.push_back(skinning::sample_appearance(population, seed, static_cast<std::uint32_t>(agent),
-                                                styling, render::spot_of(header, agent)));
+                                                styling, render::find_spot(header, agent)));
   }
   return looks;
 }

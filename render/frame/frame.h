@@ -53,7 +53,7 @@ enum class BodyPart : std::uint8_t {
   right_leg,
   left_foot,
   right_foot,
-  item,  ///< carried items except umbrellas and led things, which have ids of their own
+  item,  ///< carried items except umbrellas and led objects, which have ids of their own
 };
 
 /// Ground truth of one person within the view, visible or occluded.

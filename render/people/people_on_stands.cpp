@@ -32,7 +32,7 @@ float StandFloors::height_m(const Eigen::Vector2f& point) const {
   return 0;
 }
 
-skinning::Spot spot_of(const world::TraceHeader& header, std::size_t agent) {
+skinning::Spot find_spot(const world::TraceHeader& header, std::size_t agent) {
   return header.role[agent] == world::AgentRole::spectator ? skinning::Spot::stand
                                                            : skinning::Spot::ground;
 }

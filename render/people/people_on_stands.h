@@ -26,8 +26,8 @@ class StandFloors {
   std::vector<Eigen::AlignedBox2d> boxes_;  ///< around each stand
 };
 
-/// Where an agent is seen, which its appearance depends on.
-skinning::Spot spot_of(const world::TraceHeader& header, std::size_t agent);
+/// The kind of place at which an agent is seen, on which its appearance depends.
+skinning::Spot find_spot(const world::TraceHeader& header, std::size_t agent);
 
 /// The posture that each state of a trace stands for; nothing if people in it walk.
 std::vector<std::optional<skinning::StandPosture>> stand_postures(const world::TraceHeader& header);

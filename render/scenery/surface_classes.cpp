@@ -10,7 +10,7 @@ constexpr std::uint32_t kFirstGround = 0xFF000000;  // kIdGround with class 0
 
 std::uint8_t class_number(world::SemanticClass value) { return static_cast<std::uint8_t>(value); }
 
-world::SemanticClass class_of(skinning::Carry led) {
+world::SemanticClass led_class(skinning::Carry led) {
   if (led == skinning::Carry::suitcase) return world::SemanticClass::suitcase;
   return led == skinning::Carry::pram ? world::SemanticClass::stroller
                                       : world::SemanticClass::bicycle;
@@ -23,7 +23,7 @@ void split_classes(const skinning::Population& population, const Scene& scene, F
   std::unordered_map<std::uint32_t, SemanticClass> led;  // by agent
   for (const PersonInstance& person : scene.people) {
     const skinning::Carry carries = population.characters[person.appearance.character].carries;
-    if (skinning::is_led(carries)) led.emplace(person.agent, class_of(carries));
+    if (skinning::is_led(carries)) led.emplace(person.agent, led_class(carries));
   }
   frame.surface.resize(frame.id.size());
   std::uint8_t* surface = frame.surface.data();

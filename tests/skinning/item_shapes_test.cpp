@@ -125,7 +125,7 @@ TEST(ItemShapes, WheelsStandOnTheGroundAndHandlesAreInTheHands) {
   }
 }
 
-TEST(ItemShapes, LedThingsAreClosedAndShowTheirOutside) {
+TEST(ItemShapes, LedObjectsAreClosedAndShowTheirOutside) {
   const DressedPerson person = boxy_person();
   for (const Carry carry : {Carry::suitcase, Carry::pram, Carry::bicycle, Carry::walking_stick}) {
     const auto item = make_item(carry, person, 0);
