@@ -261,8 +261,8 @@ class PanopticExporter : public Exporter {
       std::size_t category = 0;
       bool is_crowd = false;
       if (number >= kFirstUmbrella) {
-        category = has_classes_ ? category_of(segment_class(segment)) - 1
-                                : classes + place_of(number);
+        category =
+            has_classes_ ? category_of(segment_class(segment)) - 1 : classes + place_of(number);
       } else if (const auto person = people.find(number); person != people.end()) {
         category = person->second->category;
         is_crowd = person->second->is_ignored;
