@@ -243,6 +243,17 @@ TEST(Gait, HandsStayOnTheHandlesOfWhatIsLed) {
   }
 }
 
+TEST(Gait, NobodyFallsIntoAPramOrOnACase) {
+  Walker walker = made_up_walker();
+  for (const auto& [carries, name] :
+       {std::pair(Carry::pram, "fall_forwards"), std::pair(Carry::suitcase, "fall_backwards")}) {
+    walker.manner.carries = carries;
+    const Palette lying = bake_clip(walker, clip_named(name, 0)).back();
+    const float head_x = joint_at(walker, lying, Bone::head).x();
+    EXPECT_GT(carries == Carry::pram ? -head_x : head_x, 0.5F) << name;
+  }
+}
+
 TEST(Gait, AWalkingStickTouchesTheGround) {
   for (const float scale : {0.84F, 1.0F, 1.1F}) {
     Walker walker = made_up_walker(scale);
