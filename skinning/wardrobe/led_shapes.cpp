@@ -116,15 +116,15 @@ void add_bicycle(Shape& shape, const Site& site) {
   const int sides = rod_sides(site);
   const auto rod = [&](const Vector3f& from, const Vector3f& to, float radius_m,
                        const Eigen::Vector2f& uv = kPlain) {
-    add_rod(shape, from, to, site.shape < 3 ? radius_m : 1.4F * radius_m, kStill, uv, sides);
+    add_rod(shape, from, to, site.shape < 3 ? radius_m : 1.25F * radius_m, kStill, uv, sides);
   };
   const Vector3f front = at(0.42F, kWheelM);
   const Vector3f rear = at(-0.65F, kWheelM);
   const Vector3f crank = at(-0.2F, 0.28F);
   const Vector3f head = at(0.13F, 0.76F);
   const Vector3f seat = at(-0.36F, 0.78F);
-  const int segments = site.of_shape({20, 14, 10, 8, 5});
-  const float tube = site.of_shape({18, 18, 19, 22, 26}) / 1000.0F;  // half of a tire's width
+  const int segments = site.of_shape({24, 20, 14, 12, 5});
+  const float tube = site.of_shape({18, 18, 19, 20, 26}) / 1000.0F;  // half of a tire's width
   add_tire(shape, front, kWheelM, tube, segments);
   add_tire(shape, rear, kWheelM, tube, segments);
   rod(head, crank, 0.017F);
@@ -144,6 +144,7 @@ void add_bicycle(Shape& shape, const Site& site) {
   } else {
     rod(head, front, 0.012F);
     rod(crank, rear, 0.01F);
+    rod(seat, rear, 0.01F);
   }
   add_box(shape, {seat + Vector3f(-0.06F, 0, 0.13F),
                   {0.13F, 0.065F, 0.025F},
