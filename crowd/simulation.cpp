@@ -227,6 +227,13 @@ void Simulation::set_present(std::size_t agent, bool present) {
   if (!present) agents.velocity[agent].setZero();
 }
 
+void Simulation::burden(std::size_t agent, float radius_m, float speed_share) {
+  Agents& agents = state_->crowd.agents;
+  float& radius = agents[Property::radius][agent];
+  radius = std::max(radius, radius_m);
+  agents[Property::pref_speed][agent] *= speed_share;
+}
+
 void Simulation::strike(std::size_t agent, const Eigen::Vector2f& impulse_ns) {
   if (state_->bodies) state_->bodies->strike(agent, impulse_ns);
 }

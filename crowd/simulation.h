@@ -88,6 +88,10 @@ class Simulation {
   /// `true` has no effect on them, and `false` cancels their arrival.
   void set_present(std::size_t agent, bool present);
 
+  /// Lets an agent take up at least this much room and prefer a share of its speed, since it leads
+  /// something.
+  void burden(std::size_t agent, float radius_m, float speed_share);
+
   /// Applies an impulse (N s) to an agent during the next step; ignored unless Physical::on.
   void strike(std::size_t agent, const Eigen::Vector2f& impulse_ns);
 

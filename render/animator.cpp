@@ -117,7 +117,8 @@ Animator::Animator(const world::Trace& trace, const skinning::Population& popula
   std::vector<Moment> moments;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     appearance_.push_back(skinning::sample_appearance(population, trace.header.seed,
-                                                      static_cast<std::uint32_t>(agent), styling));
+                                                      static_cast<std::uint32_t>(agent), styling,
+                                                      find_spot(trace.header, agent)));
     if (!world::is_visible_person(trace.header.role[agent])) continue;
     const std::uint64_t key = derive_seed(trace.header.seed, Stream::motion, agent);
     const Curiosity curiosity(Random(key, Stream::motion, 1));

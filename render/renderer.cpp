@@ -435,7 +435,7 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nei
   state.lap("cull");
   state.draw_image(scene, camera, choice, seen, frame);
   state.target->read(!state.color_apart, frame);
-  if (state.options.semantic) split_classes(frame);
+  if (state.options.semantic) split_classes(*state.population, scene, frame);
   state.lap("read back");
   if (state.quality.smooth_edges && !state.multisample) smooth_edges(frame);
   state.lap("smooth");

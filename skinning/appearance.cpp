@@ -47,16 +47,23 @@ struct CharacterCopy {
   std::uint32_t copy;
 };
 
-// Characters of the ages, with or without an umbrella: all of them, or a share in an order of the
-// run's own.
-std::vector<std::uint32_t> take_part(const Population& population, bool umbrella,
+// A kind of what agents have with them.
+enum class With : std::uint8_t { no_umbrella, umbrella, led };
+
+// Characters of the ages with what they may have: all of them, or a share in an order of the run's
+// own.
+std::vector<std::uint32_t> take_part(const Population& population, With with, Spot spot,
                                      std::uint64_t seed, const Styling& styling) {
   std::vector<std::uint32_t> taken;
   for (std::uint32_t i = 0; i < population.characters.size(); ++i) {
     const Character& character = population.characters[i];
     const float age = character.age_years;
     if (age < styling.youngest_years || age > styling.oldest_years) continue;
-    if ((character.carries == Carry::umbrella) == umbrella) taken.push_back(i);
+    const With has = character.carries == Carry::umbrella ? With::umbrella
+                     : is_led(character.carries)          ? With::led
+                                                          : With::no_umbrella;
+    const bool leans = character.carries == Carry::walking_stick;
+    if (has == with && !(leans && spot == Spot::stand)) taken.push_back(i);
   }
   const auto kept = static_cast<std::size_t>(
       std::ceil(styling.variety * static_cast<double>(taken.size()) - 1e-9));
@@ -79,12 +86,24 @@ std::vector<std::uint32_t> take_part(const Population& population, bool umbrella
 }
 
 // Everybody without an umbrella once, and so many with one, again and again from the front, as make
-// up their share. If all characters have umbrellas, all come with them.
+// up their share. If all characters have umbrellas, all come with them; if all lead something, too.
 std::vector<CharacterCopy> choose_cast(const Population& population, std::uint64_t seed,
-                                       const Styling& styling) {
-  const std::vector<std::uint32_t> dry = take_part(population, true, seed, styling);
-  std::vector<std::uint32_t> bare = take_part(population, false, seed, styling);
-  if (dry.empty() && bare.empty()) refuse_ages(population, styling);
+                                       const Styling& styling, Spot spot, bool leads) {
+  const std::vector<std::uint32_t> dry = take_part(population, With::umbrella, spot, seed, styling);
+  std::vector<std::uint32_t> bare = take_part(population, With::no_umbrella, spot, seed, styling);
+  const bool nobody_else = dry.empty() && bare.empty();
+  std::vector<CharacterCopy> leading;
+  if (leads || nobody_else) {
+    for (const std::uint32_t character :
+         take_part(population, With::led, Spot::ground, seed, styling)) {
+      leading.push_back({character, 0});
+    }
+  }
+  if (!leading.empty()) return leading;
+  if (nobody_else && spot == Spot::stand) {
+    return choose_cast(population, seed, styling, Spot::ground, leads);
+  }
+  if (nobody_else) refuse_ages(population, styling);
   const bool all_dry = !dry.empty() && (bare.empty() || styling.umbrellas >= 1);
   if (all_dry) bare.clear();
   const std::size_t under =
@@ -159,12 +178,13 @@ Appearance shown(const Population& population, std::uint32_t number, std::uint64
 }  // namespace
 
 Appearance sample_appearance(const Population& population, std::uint64_t run_seed,
-                             std::uint32_t agent, const Styling& styling) {
+                             std::uint32_t agent, const Styling& styling, Spot spot) {
   check(!population.characters.empty(), "a population has characters");
-  const std::vector<CharacterCopy> cast = choose_cast(population, run_seed, styling);
+  const bool leads = spot == Spot::ground && is_leading(run_seed, agent, styling.leading);
+  const std::vector<CharacterCopy> cast = choose_cast(population, run_seed, styling, spot, leads);
   const auto count = static_cast<std::uint32_t>(cast.size());
-  const CharacterCopy& place = cast[draw_index(run_seed, agent, count)];
-  return shown(population, place.character, run_seed, agent, agent / count + place.copy, styling);
+  const CharacterCopy& shows = cast[draw_index(run_seed, agent, count)];
+  return shown(population, shows.character, run_seed, agent, agent / count + shows.copy, styling);
 }
 
 Appearance appearance_as(const Population& population, std::uint32_t character,

@@ -11,6 +11,9 @@
 namespace throng::skinning {
 
 inline constexpr int kBoneCount = 21;
+/// The bone of vertices that stay where they are in model space, such as those of a pram: they are
+/// turned and moved with the person, but with none of the body's motion. No palette has it.
+inline constexpr std::uint8_t kStillBone = kBoneCount;
 
 /// The rig, in palette order.
 enum class Bone : std::uint8_t {
@@ -81,10 +84,24 @@ struct Mesh {
   std::vector<Part> parts;
 };
 
-/// A carried item; see items.h for its attachment. Umbrellas are open; characters with umbrellas
-/// take part only in rain (Styling::umbrellas).
-enum class Carry : std::uint8_t { nothing, backpack, shoulder_bag, handbag, umbrella };
-inline constexpr std::size_t kCarryCount = 5;
+/// A carried or led item; see items.h for its attachment. Umbrellas are open; characters with
+/// umbrellas take part only in rain (Styling::umbrellas), those who lead something on wheels only
+/// where the crowd has room for it (Styling::leading).
+enum class Carry : std::uint8_t {
+  nothing,
+  backpack,
+  shoulder_bag,
+  handbag,
+  umbrella,
+  walking_stick,
+  suitcase,  ///< pulled
+  pram,      ///< pushed
+  bicycle    ///< pushed
+};
+inline constexpr std::size_t kCarryCount = 9;
+
+/// Whether an item is on wheels and led over the ground.
+inline constexpr bool is_led(Carry carry) { return carry >= Carry::suitcase; }
 
 /// A person of the library: body, clothes and levels of detail.
 struct Character {
@@ -108,7 +125,7 @@ struct Character {
 };
 
 /// Whether a part is a separate object instead of a part of the person: an open umbrella, which
-/// occludes its owner.
+/// occludes its owner, or what the person leads.
 bool is_apart(const Character& character, const Part& part);
 
 /// A texture. All textures of a library are squares of the same size, for one texture array.
@@ -119,6 +136,11 @@ struct Texture {
 /// A bone's motion from the rest pose to the pose, in model space: 3x4 row-major affine.
 using BoneMatrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 using Palette = std::array<BoneMatrix, kBoneCount>;
+
+/// The matrix of a vertex's bone: that of the palette, or none of its motion (kStillBone).
+inline BoneMatrix bone_matrix(const Palette& palette, std::size_t bone) {
+  return bone == kStillBone ? BoneMatrix(BoneMatrix::Identity()) : palette[bone];
+}
 
 /// The frames of a clip within every character's palettes.
 struct Clip {

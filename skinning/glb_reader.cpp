@@ -134,7 +134,7 @@ class Reader {
       const aiBone& bone = *source.mBones[i];
       const std::string_view name = bone.mName.C_Str();
       const auto known = std::find(kBoneNames.begin(), kBoneNames.end(), name);
-      if (known == kBoneNames.end()) {
+      if (known == kBoneNames.end() && name != kStillName) {
         fail(fmt::format("bone \"{}\"", name), "the 21 bones of throng's rig");
       }
       for (unsigned w = 0; w < bone.mNumWeights; ++w) {

@@ -31,7 +31,7 @@ class Writer {
     document_["scene"] = 0;
     add_joints();
     add_images();
-    json roots = json::array({0});
+    json roots = json::array({0, kStillBone});
     for (std::size_t level = 0; level < asset_->levels.size(); ++level) {
       roots.push_back(document_["nodes"].size());
       add_level(level);
@@ -88,9 +88,11 @@ class Writer {
                                              0, 0, 1, 0, -joint.y(), -joint.z(), -joint.x(), 1};
       append(inverse);
     }
-    const std::size_t matrices = add_accessor(start, 0, kFloat, "MAT4", kBoneCount);
-    document_["skins"] =
-        json::array({{{"joints", joints}, {"skeleton", 0}, {"inverseBindMatrices", matrices}}});
+    document_["nodes"].push_back({{"name", kStillName}});
+    joints.push_back(kStillBone);
+    append(std::array<float, 16>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    const std::size_t matrices = add_accessor(start, 0, kFloat, "MAT4", joints.size());
+    document_["skins"] = json::array({{{"joints", joints}, {"inverseBindMatrices", matrices}}});
   }
 
   void add_images() {

@@ -9,7 +9,7 @@ namespace throng::skinning {
 
 /// A level of detail.
 struct DetailLevel {
-  std::size_t triangles;  ///< max number, including the carried item
+  std::size_t triangles;  ///< max number, including a carried item, but not what is led
   double above_px;        ///< used for people whose standing height exceeds this
 };
 

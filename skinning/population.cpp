@@ -82,7 +82,8 @@ Population load_population(const fs::path& folder) {
 fs::path population_folder() { return resource_folder("THRONG_PEOPLE", "people", "build/people"); }
 
 bool is_apart(const Character& character, const Part& part) {
-  return character.carries == Carry::umbrella && part.tint == Tint::item;
+  const bool is_thing = character.carries == Carry::umbrella || is_led(character.carries);
+  return is_thing && part.tint == Tint::item;
 }
 
 Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, float blend) {
@@ -90,7 +91,7 @@ Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, f
   for (std::size_t slot = 0; slot < 4; ++slot) {
     const std::size_t bone = vertex.bones[slot];
     const float weight = static_cast<float>(vertex.weights[slot]) / 255;
-    matrix += weight * ((1 - blend) * a[bone] + blend * b[bone]);
+    matrix += weight * ((1 - blend) * bone_matrix(a, bone) + blend * bone_matrix(b, bone));
   }
   const Eigen::Vector3f position(vertex.position[0], vertex.position[1], vertex.position[2]);
   return matrix.leftCols<3>() * position + matrix.col(3);

@@ -17,6 +17,9 @@ extern const std::array<Bone, kBoneCount> kParent;
 /// Names of bones in GLB files, in palette order.
 extern const std::array<std::string_view, kBoneCount> kBoneNames;
 
+/// Name of the joint of kStillBone in GLB files.
+inline constexpr std::string_view kStillName = "still";
+
 /// Joint position of each bone, in model space (meters, Z up, facing +X).
 using Joints = std::array<Eigen::Vector3f, kBoneCount>;
 

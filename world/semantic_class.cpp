@@ -65,6 +65,8 @@ constexpr std::array<SemanticClassInfo, kSemanticClasses> kClasses = {{
     {C::canopy, "canopy", {150, 100, 160}, G::prop},
     {C::boat, "boat", {30, 70, 110}, G::prop},
     {C::bridge, "bridge", {150, 100, 100}, G::prop},
+    {C::suitcase, "suitcase", {200, 60, 120}, G::umbrella},
+    {C::stroller, "stroller", {160, 40, 160}, G::umbrella},
 }};
 
 constexpr bool is_in_order() {

@@ -65,9 +65,11 @@ enum class SemanticClass : std::uint8_t {
   sports = 51,        ///< goals
   canopy = 52,        ///< roofs on posts over platforms
   boat = 53,          ///< and pontoons
-  bridge = 54         ///< what carries a deck: arches, girders, piers
+  bridge = 54,        ///< what carries a deck: arches, girders, piers
+  suitcase = 55,      ///< pulled
+  stroller = 56       ///< prams and pushchairs
 };
-inline constexpr std::size_t kSemanticClasses = 55;
+inline constexpr std::size_t kSemanticClasses = 57;
 
 /// Kinds of instances to which a pixel can belong.
 enum class SemanticGroup : std::uint8_t {
@@ -76,7 +78,7 @@ enum class SemanticGroup : std::uint8_t {
   building,
   prop,
   person,
-  umbrella,
+  umbrella,  ///< what people hold or lead; bicycles, which are led as well, are props
   drone
 };
 

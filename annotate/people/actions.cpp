@@ -10,6 +10,7 @@
 
 #include "annotate/people/coco.h"
 #include "annotate/people/decimals.h"
+#include "render/people/people_on_stands.h"
 #include "skinning/items.h"
 #include "spec/annotate/table_columns.h"
 
@@ -66,8 +67,8 @@ ActionFacts::ActionFacts(const world::Trace& trace, const skinning::Population& 
     : trace_(&trace) {
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     const auto number = static_cast<std::uint32_t>(agent);
-    const skinning::Appearance appearance =
-        skinning::sample_appearance(population, trace.header.seed, number, styling);
+    const skinning::Appearance appearance = skinning::sample_appearance(
+        population, trace.header.seed, number, styling, render::find_spot(trace.header, agent));
     carries_.push_back(population.characters[appearance.character].carries !=
                        skinning::Carry::nothing);
     const std::int32_t group = agent < trace.header.group.size() ? trace.header.group[agent] : -1;

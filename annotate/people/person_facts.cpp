@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/text/words.h"
 #include "render/animator.h"
+#include "render/people/people_on_stands.h"
 #include "skinning/items.h"
 #include "skinning/wardrobe/clothes.h"
 
@@ -184,7 +185,8 @@ PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& 
   for (const std::string& id : trace.header.exit_ids) exit_.push_back(nlohmann::json(id).dump());
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     const skinning::Appearance appearance = skinning::sample_appearance(
-        population, trace.header.seed, static_cast<std::uint32_t>(agent), styling);
+        population, trace.header.seed, static_cast<std::uint32_t>(agent), styling,
+        render::find_spot(trace.header, agent));
     const std::int32_t group = agent < trace.header.group.size() ? trace.header.group[agent] : -1;
     fixed_.push_back(fmt::format(
         R"(,"group":{},"attributes":{})", group < 0 ? "null" : std::to_string(group),

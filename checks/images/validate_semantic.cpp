@@ -40,7 +40,9 @@ Disagreements disagreements(const std::vector<std::uint16_t>& classes,
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (classes[i] >= world::kSemanticClasses) continue;
     const SemanticGroup group = group_of_instance(ids[i]);
-    found.kind += world::semantic_classes()[classes[i]].group == group ? 0 : 1;
+    const bool is_led = group == SemanticGroup::umbrella &&
+                        classes[i] == static_cast<std::uint16_t>(SemanticClass::bicycle);
+    found.kind += world::semantic_classes()[classes[i]].group == group || is_led ? 0 : 1;
     if (group == SemanticGroup::prop) {
       found.prop += props.try_emplace(ids[i], classes[i]).first->second == classes[i] ? 0 : 1;
     }

@@ -103,6 +103,8 @@ constexpr std::array<Mapping, world::kSemanticClasses> kMappings = {{
     {C::canopy, kBuilding, kUavidBuilding},
     {C::boat, kDynamic, kUavidClutter},
     {C::bridge, kBridge, kUavidClutter},
+    {C::suitcase, kDynamic, kUavidClutter},
+    {C::stroller, kDynamic, kUavidClutter},
 }};
 
 constexpr bool is_in_order() {

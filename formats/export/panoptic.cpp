@@ -69,9 +69,8 @@ const char* supercategory(const world::SemanticClassInfo& known) {
 }
 
 /// The class of a segment that is no person.
-world::SemanticClass segment_class(std::uint32_t number, const Segment& segment) {
+world::SemanticClass segment_class(const Segment& segment) {
   using world::SemanticClass;
-  if (number < kFirstBuilding) return SemanticClass::umbrella;
   const SemanticClass shown = segment.surface;
   const bool is_part = shown == SemanticClass::roof || shown == SemanticClass::door;
   return is_part ? SemanticClass::building : shown;
@@ -219,7 +218,7 @@ class PanopticExporter : public Exporter {
          {std::tuple{"building", "place", true, SemanticClass::building},
           {"prop", "place", true, SemanticClass::object},
           {"ground", "place", false, SemanticClass::pavement},
-          {"umbrella", "accessory", true, SemanticClass::umbrella},
+          {"accessory", "accessory", true, SemanticClass::umbrella},
           {"drone", "vehicle", true, SemanticClass::drone}}) {
       add(name, group, is_thing, color_of(surface));
     }
@@ -262,8 +261,8 @@ class PanopticExporter : public Exporter {
       std::size_t category = 0;
       bool is_crowd = false;
       if (number >= kFirstUmbrella) {
-        category = has_classes_ ? category_of(segment_class(number, segment)) - 1
-                                : classes + place_of(number);
+        category =
+            has_classes_ ? category_of(segment_class(segment)) - 1 : classes + place_of(number);
       } else if (const auto person = people.find(number); person != people.end()) {
         category = person->second->category;
         is_crowd = person->second->is_ignored;

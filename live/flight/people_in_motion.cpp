@@ -16,8 +16,8 @@ std::vector<skinning::Appearance> sample_looks(const world::TraceHeader& header,
                                                const skinning::Styling& styling) {
   std::vector<skinning::Appearance> looks;
   for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
-    looks.push_back(
-        skinning::sample_appearance(population, seed, static_cast<std::uint32_t>(agent), styling));
+    looks.push_back(skinning::sample_appearance(population, seed, static_cast<std::uint32_t>(agent),
+                                                styling, render::find_spot(header, agent)));
   }
   return looks;
 }

@@ -626,6 +626,9 @@ class Crowd(Part):
     "best"."""
     compliance: float | None = None
     """Probability that a person near a guide follows it; multiplies that of the behavior file. Default: 1."""
+    leading: float | None = None
+    """Share of people who lead something on wheels: a suitcase, a pram or a bicycle. They take up more room and are
+    slower. Default: 0."""
     physical: bool | None = None
     """Physical contact: people whom a drone hits or a crowd presses are pushed, and fall above a limit of the force.
     Default: false."""

@@ -20,8 +20,9 @@
 namespace throng::render {
 
 /// Values of the instance id buffer.
-inline constexpr std::uint32_t kIdNothing = 0;            ///< sky
-inline constexpr std::uint32_t kIdUmbrella = 0x40000000;  ///< + id of the person who holds it
+inline constexpr std::uint32_t kIdNothing = 0;  ///< sky
+inline constexpr std::uint32_t kIdUmbrella =
+    0x40000000;  ///< + id of who holds it, or leads what it is
 inline constexpr std::uint32_t kIdGround = 0xFFFF0000;    ///< the ground
 inline constexpr std::uint32_t kIdBuilding = 0x80000000;  ///< + index of the building
 /// + index of the prop, mesh or rubble, in this order.
@@ -36,7 +37,8 @@ inline constexpr bool is_umbrella(std::uint32_t id) {
   return id >= kIdUmbrella && id < kIdBuilding;
 }
 inline constexpr bool is_drone(std::uint32_t id) { return id >= kIdDrone && id < kIdGround; }
-/// Whether the id is that of an object that is posed in every frame: a person or an umbrella.
+/// Whether the id is that of an object that is posed in every frame: a person, an umbrella, or
+/// what a person leads.
 inline constexpr bool is_posed(std::uint32_t id) { return is_agent(id) || is_umbrella(id); }
 inline constexpr std::uint32_t agent_of_id(std::uint32_t id) { return id - 1; }
 
@@ -51,7 +53,7 @@ enum class BodyPart : std::uint8_t {
   right_leg,
   left_foot,
   right_foot,
-  item,  ///< carried items except umbrellas, which have ids of their own
+  item,  ///< carried items except umbrellas and led objects, which have ids of their own
 };
 
 /// Ground truth of one person within the view, visible or occluded.

@@ -45,6 +45,11 @@ float StandFloors::height_m(const Eigen::Vector2f& point) const {
   return 0;
 }
 
+skinning::Spot find_spot(const world::TraceHeader& header, std::size_t agent) {
+  return header.role[agent] == world::AgentRole::spectator ? skinning::Spot::stand
+                                                           : skinning::Spot::ground;
+}
+
 std::vector<std::optional<StandPosture>> stand_postures(const world::TraceHeader& header) {
   std::vector<std::optional<StandPosture>> postures;
   postures.resize(header.state_names.size());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "skinning/animate/spectator_pose.h"
+#include "skinning/appearance.h"
 #include "world/props.h"
 #include "world/stand.h"
 #include "world/trace.h"
@@ -28,6 +29,9 @@ class StandFloors {
   std::vector<Eigen::AlignedBox2d> boxes_;  ///< around each stand
   std::vector<Eigen::Vector3d> seats_;      ///< with their floors, by x
 };
+
+/// The kind of place at which an agent is seen, on which its appearance depends.
+skinning::Spot find_spot(const world::TraceHeader& header, std::size_t agent);
 
 /// The posture that each state of a trace stands for; nothing if people in it walk.
 std::vector<std::optional<skinning::StandPosture>> stand_postures(const world::TraceHeader& header);

@@ -49,7 +49,7 @@ class Projector {
     if ((known_ >> bone & 1U) == 0) {
       known_ |= 1U << bone;
       Eigen::Matrix4f posed = Eigen::Matrix4f::Identity();
-      posed.topRows<3>() = palette_[bone];
+      posed.topRows<3>() = skinning::bone_matrix(palette_, bone);
       image_from_rest_[bone] = image_from_model_ * posed;
     }
     return image_from_rest_[bone];
@@ -58,7 +58,7 @@ class Projector {
   const skinning::Palette& palette_;
   Eigen::Matrix4f image_from_model_;
   std::uint32_t known_ = 0;
-  std::array<Eigen::Matrix4f, skinning::kBoneCount> image_from_rest_;
+  std::array<Eigen::Matrix4f, skinning::kBoneCount + 1> image_from_rest_;
   Eigen::Vector4f up_;
 };
 

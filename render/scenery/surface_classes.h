@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "render/frame/frame.h"
+#include "render/props/scene.h"
+#include "skinning/population.h"
 #include "world/semantic_class.h"
 
 namespace throng::render {
@@ -15,7 +17,8 @@ constexpr std::uint32_t id_with_class(std::uint32_t id, world::SemanticClass val
   return (id & ~kClassBits) | (static_cast<std::uint32_t>(value) << 16U);
 }
 
-/// Fills Frame::surface from the ids and removes the classes from the ids.
-void split_classes(Frame& frame);
+/// Fills Frame::surface from the ids and removes the classes from the ids; what people hold or lead
+/// has the class of what these people in the scene carry.
+void split_classes(const skinning::Population& population, const Scene& scene, Frame& frame);
 
 }  // namespace throng::render

@@ -33,6 +33,14 @@ mat3x4 read_rows(uvec4 bone) {
                 vec4(products.y - turns.y, products.z + turns.x, 1.0 - squares.x - squares.y, shift.z));
 }
 
+// The rows of a palette's bone; kStillBone (skinning/character.h) has none of the body's motion.
+mat3x4 bone_rows(uint palette, uint bone) {
+  if (bone == uint(kBones)) {
+    return mat3x4(vec4(1.0, 0.0, 0.0, 0.0), vec4(0.0, 1.0, 0.0, 0.0), vec4(0.0, 0.0, 1.0, 0.0));
+  }
+  return read_rows(texelFetch(posed_bones, int(palette) * kBones + int(bone)));
+}
+
 // The rows of palettes a and b, blended (the blend is a float's bits).
 mat3x4 blend_rows(uvec3 pose) {
   mat3x4 rows = mat3x4(0.0);
@@ -44,14 +52,13 @@ mat3x4 blend_rows(uvec3 pose) {
   // In the distance people have one palette: a loop ends where it has ended for all vertices.
   int single = b > 0.0 ? 0 : count;
   for (int k = 0; k < single; ++k) {
-    rows += weight.x * read_rows(texelFetch(posed_bones, int(pose.x) * kBones + int(first_byte(bones))));
+    rows += weight.x * bone_rows(pose.x, first_byte(bones));
     bones >>= 8;
     weight = weight.yzwx;
   }
   for (int k = single; k < count; ++k) {
-    int bone = int(first_byte(bones));
-    mat3x4 rows_a = read_rows(texelFetch(posed_bones, int(pose.x) * kBones + bone));
-    mat3x4 rows_b = read_rows(texelFetch(posed_bones, int(pose.y) * kBones + bone));
+    mat3x4 rows_a = bone_rows(pose.x, first_byte(bones));
+    mat3x4 rows_b = bone_rows(pose.y, first_byte(bones));
     rows += (weight.x * (1.0 - b)) * rows_a + (weight.x * b) * rows_b;
     bones >>= 8;
     weight = weight.yzwx;
@@ -93,7 +100,7 @@ uint part() { return skin.z; }
 
 uint tint_slot() { return part() >> 24 & 0x7Fu; }
 
-// Whether it is a separate object: an umbrella.
+// Whether it is a separate object: an umbrella, or what is led.
 bool is_apart() { return part() >> 31 != 0u; }
 
 uint instance_id() { return is_apart() ? pose.w | 0x40000000u : pose.w; }  // kIdUmbrella

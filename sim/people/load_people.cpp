@@ -2,9 +2,19 @@
 
 #include <utility>
 
+#include "spec/skinning/styling.h"
 #include "world/scenario_crowd.h"
 
 namespace throng::sim {
+
+namespace {
+
+// A body that is longer than a disc, as one: about the area of a person with a pram (0.6 m wide and
+// 1.05 m long) or a case; narrow enough for doors. Estimated, as is the speed.
+constexpr float kLeaderRadiusM = 0.4F;
+constexpr float kLeaderSpeed = 0.9F;  // share of that without
+
+}  // namespace
 
 std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
   if (!spec.model.empty()) return spec.model;
@@ -24,7 +34,12 @@ crowd::Simulation load_people(const world::Scenario& scenario, std::uint64_t see
   options.compliance = spec.compliance;
   options.physical = spec.physical;
   options.can_step = false;
-  return {description.scene, description.behavior, options};
+  crowd::Simulation people(description.scene, description.behavior, options);
+  for (std::size_t agent = 0; agent < people.agent_count(); ++agent) {
+    if (!skinning::is_leading(seed, static_cast<std::uint32_t>(agent), spec.leading)) continue;
+    people.burden(agent, kLeaderRadiusM, kLeaderSpeed);
+  }
+  return people;
 }
 
 }  // namespace throng::sim

@@ -63,7 +63,7 @@ Figure lively(const Walker& walker, const Trunk& trunk, const Arm& main, const A
   return upright(walker, trunk, arms_of(walker, main, other), 0, knee_deg * kDegree);
 }
 
-void put_both(const Walker& walker, Spot spot, Figure& figure) {
+void put_both(const Walker& walker, HandSpot spot, Figure& figure) {
   for (const Side side : kSides) {
     if (!is_hand_busy(walker, side)) put_hand(walker, side, spot, figure);
   }
@@ -89,82 +89,82 @@ Figure folded(const Walker& walker, double aside, double lean_deg, double head_d
 
 Figure pockets(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 1, 4, -2);
-  put_both(walker, Spot::pocket, figure);
+  put_both(walker, HandSpot::pocket, figure);
   return figure;
 }
 
 Figure arms_crossed(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 1, 0, -3);
-  put_both(walker, Spot::elbow, figure);
+  put_both(walker, HandSpot::elbow, figure);
   return figure;
 }
 
 Figure akimbo(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 1, 0, -2);
-  put_both(walker, Spot::waist, figure);
+  put_both(walker, HandSpot::waist, figure);
   return figure;
 }
 
 Figure hands_behind(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 1, 5, -2);
-  put_both(walker, Spot::back, figure);
+  put_both(walker, HandSpot::back, figure);
   return figure;
 }
 
 Figure call(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 0.6, 5, 0);
-  put_hand(walker, main_hand(walker), Spot::ear, figure);
+  put_hand(walker, main_hand(walker), HandSpot::ear, figure);
   return figure;
 }
 
 Figure film(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 0.3, -6, -4);
-  put_both(walker, Spot::eyes, figure);
+  put_both(walker, HandSpot::eyes, figure);
   return figure;
 }
 
 Figure film_high(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 0.3, -10, -5);
-  put_hand(walker, main_hand(walker), Spot::overhead, figure);
+  put_hand(walker, main_hand(walker), HandSpot::overhead, figure);
   return figure;
 }
 
 Figure read_map(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 0.25, 34, 5);
-  put_both(walker, Spot::chest, figure);
+  put_both(walker, HandSpot::chest, figure);
   return figure;
 }
 
 Figure squat(const Walker& walker, double at) {
   Figure figure = folded(walker, at, 26, -6);
-  put_both(walker, Spot::knee, figure);
+  put_both(walker, HandSpot::knee, figure);
   return figure;
 }
 
 Figure cower(const Walker& walker, double at) {
   Figure figure = folded(walker, 0.35 * at, 46, 22);
-  put_both(walker, Spot::crown, figure);
+  put_both(walker, HandSpot::crown, figure);
   return figure;
 }
 
 Figure hold_head(const Walker& walker, double at) {
   Figure figure = calm(walker, at, 1, 2, -3);
-  put_both(walker, Spot::crown, figure);
+  put_both(walker, HandSpot::crown, figure);
   return figure;
 }
 
 /// To the mouth with the main hand and back, as people eat, drink and smoke; the other hand waits.
-Figure to_mouth(const Walker& walker, double at, double back_deg, Spot other_spot) {
+Figure to_mouth(const Walker& walker, double at, double back_deg, HandSpot other_spot) {
   const double up = dip(at);
   Figure figure = calm(walker, 0.25 * turn_sine(at), 1, 8 - (8 + back_deg) * up, 1);
   const Side other = other_hand(walker);
   if (!is_hand_busy(walker, other)) put_hand(walker, other, other_spot, figure);
-  put_hand(walker, main_hand(walker), Spot::chest, Spot::mouth, up, figure);
+  put_hand(walker, main_hand(walker), HandSpot::chest, HandSpot::mouth, up, figure);
   return figure;
 }
-Figure eat(const Walker& walker, double at) { return to_mouth(walker, at, -6, Spot::chest); }
-Figure drink(const Walker& walker, double at) { return to_mouth(walker, at, 14, Spot::pocket); }
-Figure smoke(const Walker& walker, double at) { return to_mouth(walker, at, 4, Spot::pocket); }
+Figure eat(const Walker& walker, double at) { return to_mouth(walker, at, -6, HandSpot::chest); }
+Figure drink(const Walker& walker, double at) { return to_mouth(walker, at, 14, HandSpot::pocket); }
+Figure smoke(const Walker& walker, double at) { return to_mouth(walker, at, 4, HandSpot::pocket); }
 
 Figure talk(const Walker& walker, double at) {
   Trunk trunk;

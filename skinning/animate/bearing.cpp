@@ -94,12 +94,13 @@ void bear_arms(const Walker& walker, Bearing bearing, double phase, Pose& pose) 
   Figure figure{pose, {}};
   const Side main = phone_hand(walker.manner);
   if (bearing == Bearing::phone || bearing == Bearing::call) {
-    put_hand(walker, main, bearing == Bearing::call ? Spot::ear : Spot::chest, figure);
+    put_hand(walker, main, bearing == Bearing::call ? HandSpot::ear : HandSpot::chest, figure);
   }
   if (bearing == Bearing::pockets || bearing == Bearing::cover) {
     for (const Side side : kSides) {
       if (is_hand_busy(walker, side)) continue;
-      put_hand(walker, side, bearing == Bearing::cover ? Spot::crown : Spot::pocket, figure);
+      put_hand(walker, side, bearing == Bearing::cover ? HandSpot::crown : HandSpot::pocket,
+               figure);
     }
   }
   if (bearing == Bearing::talk) gesture(walker, main, phase, figure.pose);

@@ -156,8 +156,11 @@ std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const Own
   std::vector<Palette> palettes;
   palettes.reserve(clip.frames);
   if (starts_with(clip.name, "fall")) {
-    // Nobody lies on a backpack.
-    const bool forwards = clip.name == "fall_forwards" || walker.manner.carries == Carry::backpack;
+    // Nobody lies on a backpack, on a case, or in a pram.
+    const Carry carries = walker.manner.carries;
+    const bool forwards = (clip.name == "fall_forwards" || carries == Carry::backpack ||
+                           carries == Carry::suitcase) &&
+                          carries != Carry::pram;
     for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
       const Pose pose = fall(walker, forwards, cycle_share(clip, frame));
       palettes.push_back(grounded(walker, pose, walker.body));

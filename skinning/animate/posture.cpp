@@ -22,6 +22,17 @@ void pose_arm(const Arm& arm, Side side, Pose& pose) {
   pose.of(on(side, Bone::left_forearm)) = pose.of(on(side, Bone::left_hand)) = forearm;
 }
 
+// Turns the hand so that the stick's tip is on the ground, ahead of the hand.
+void lean_on_stick(const Walker& walker, Pose& pose) {
+  const std::size_t hand = index_from(Bone::right_hand);
+  const Eigen::Vector3f stick = find_stick(walker.joints).tip - walker.joints[hand];
+  const float length = std::hypot(stick.x(), stick.z());
+  const float down = std::clamp(pose_joints(walker.joints, pose)[hand].z() / length, 0.0F, 1.0F);
+  const Eigen::Vector3f ahead = pose.of(Bone::chest).col(0);
+  pose.of(Bone::right_hand) = turn_z(std::atan2(ahead.y(), ahead.x())) *
+                              turn_y(std::atan2(stick.x(), -stick.z()) - std::acos(down));
+}
+
 }  // namespace
 
 void pose_trunk(const Walker& walker, const Trunk& trunk, Pose& pose) {
@@ -53,6 +64,10 @@ Arm arm_posture(Carry carries, Side side, const Arm& free) {
     calmer(0.7, 22);
     arm.out_deg += 5;
   }
+  if (carries == Carry::walking_stick && side == Side::right) {
+    calmer(0.5, 26);
+    arm.out_deg += 4;
+  }
   if (carries == Carry::backpack) arm.out_deg += 2;
   return arm;
 }
@@ -67,12 +82,16 @@ void pose_arms(const Walker& walker, const std::array<Arm, 2>& free, Pose& pose)
     const Eigen::Vector3f ahead = pose.of(Bone::chest).col(0);
     pose.of(Bone::right_hand) = turn_z(std::atan2(ahead.y(), ahead.x()));
   }
-  const auto grip = find_grip(carries, walker.joints);
-  if (!grip) return;
-  const Eigen::Vector3f& joint = walker.joints[index_from(grip->bone)];
-  const Eigen::Vector3f posed = pose_joints(walker.joints, pose)[index_from(grip->bone)];
-  hold(walker, grip->hand == Bone::left_hand ? Side::left : Side::right,
-       posed + pose.of(grip->bone) * (grip->point - joint), pose);
+  if (carries == Carry::walking_stick) lean_on_stick(walker, pose);
+  for (const Grip& grip : find_grips(carries, walker.joints)) {
+    Eigen::Vector3f point = grip.point;
+    if (index_from(grip.bone) != kStillBone) {
+      const Eigen::Vector3f& joint = walker.joints[index_from(grip.bone)];
+      const Eigen::Vector3f posed = pose_joints(walker.joints, pose)[index_from(grip.bone)];
+      point = posed + pose.of(grip.bone) * (grip.point - joint);
+    }
+    hold(walker, grip.hand == Bone::left_hand ? Side::left : Side::right, point, pose);
+  }
 }
 
 void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& pose) {
@@ -95,7 +114,10 @@ void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& p
 }
 
 Side phone_hand(const Manner& manner) {
-  const bool right_is_busy = manner.carries == Carry::umbrella || manner.carries == Carry::handbag;
+  // A pram is pushed on with the other hand.
+  const bool right_is_busy = manner.carries != Carry::nothing &&
+                             manner.carries != Carry::backpack &&
+                             manner.carries != Carry::shoulder_bag && manner.carries != Carry::pram;
   return right_is_busy || manner.left_handed ? Side::left : Side::right;
 }
 

@@ -32,7 +32,8 @@ void pose_trunk(const Walker& walker, const Trunk& trunk, Pose& pose);
 /// The posture of an arm that is affected by a carried item; `free` is the posture without item.
 Arm arm_posture(Carry carries, Side side, const Arm& free);
 
-/// Poses both arms relative to the chest, as the carried item permits. Call it after pose_trunk().
+/// Poses both arms relative to the chest, as the carried item permits. Call it after pose_trunk()
+/// and when the shift of the hips is known: handles of led objects stay where they are.
 void pose_arms(const Walker& walker, const std::array<Arm, 2>& free, Pose& pose);
 
 /// Moves the center of the palm to a point in model space, with the elbow down and slightly

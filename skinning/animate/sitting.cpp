@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "base/geometry/angle.h"
 #include "skinning/animate/posture.h"
@@ -55,7 +56,7 @@ void rest_hands(const Walker& walker, Seated seated, Figure& figure) {
     if (is_hand_busy(walker, side)) continue;
     hold(walker, side, {reach * thigh_m, aside_m * side_sign(side), seat_z + above_m}, figure.pose);
   }
-  if (seated == Seated::phone) put_hand(walker, phone_hand(walker.manner), Spot::chest, figure);
+  if (seated == Seated::phone) put_hand(walker, phone_hand(walker.manner), HandSpot::chest, figure);
 }
 
 }  // namespace
@@ -79,10 +80,10 @@ Figure sit(const Walker& walker, Seated seated, double aside) {
   trunk.chest_yaw = 9 * kDegree * aside;
   trunk.head_down = kHeadDownDeg.at(way) * kDegree;
   pose_trunk(walker, trunk, figure.pose);
-  const Arm arm = {12, 40, 6 + walker.manner.arms_out_deg, 10};
-  pose_arms(walker, {arm, arm}, figure.pose);
   const double hips_m = kSeatM + kHipsShare * static_cast<double>(walker.stature_m);
   figure.pose.shift.z() = static_cast<float>(hips_m) - joint(walker, Bone::left_thigh).z();
+  const Arm arm = {12, 40, 6 + walker.manner.arms_out_deg, 10};
+  pose_arms(walker, {arm, arm}, figure.pose);
   put_feet_before_seat(standing, figure);
   if (seated == Seated::crossed) cross_legs(walker, figure);
   rest_hands(walker, seated, figure);

@@ -145,9 +145,9 @@ Figure upright(const Walker& walker, const Trunk& trunk, const std::array<Arm, 2
                double aside_m, double knee_rad) {
   Figure figure;
   pose_trunk(walker, trunk, figure.pose);
-  pose_arms(walker, arms, figure.pose);
   figure.pose.shift.y() = static_cast<float>(aside_m);
   put_feet(walker, knee_rad, figure);
+  pose_arms(walker, arms, figure.pose);
   return figure;
 }
 

@@ -40,7 +40,7 @@ float body_reach(const Walker& walker, std::initializer_list<Bone> bones, const 
 }
 
 // Shares are of stature.
-Place on_trunk(const Walker& walker, float sign, Spot spot) {
+Place on_trunk(const Walker& walker, float sign, HandSpot spot) {
   const float s = walker.stature_m;
   const Vector3f aside = sign * Vector3f::UnitY();
   const Vector3f ahead = Vector3f::UnitX();
@@ -49,22 +49,22 @@ Place on_trunk(const Walker& walker, float sign, Spot spot) {
   const Vector3f hips(0, 0, rest_joint(walker, Bone::left_thigh).z());
   const Vector3f waist = hips + Vector3f(0, 0, 0.075F * s);
   const Vector3f chest(0, 0, rest_joint(walker, Bone::left_upper_arm).z() - 0.09F * s);
-  if (spot == Spot::pocket) {
+  if (spot == HandSpot::pocket) {
     const float out_m = body_reach(walker, trunk, hips, aside, 0.085F * s);
     return {Bone::hips, hips + Vector3f(0.025F * s, sign * out_m, 0), {-1, 0.5F * sign, -0.2F}};
   }
-  if (spot == Spot::waist) {
+  if (spot == HandSpot::waist) {
     const float out_m = body_reach(walker, trunk, waist, aside, 0.075F * s);
     return {Bone::spine, waist + Vector3f(0.01F, sign * (out_m + 0.02F), 0), {-0.35F, sign, 0}};
   }
-  if (spot == Spot::back) {
+  if (spot == HandSpot::back) {
     const float out_m = body_reach(walker, trunk, waist, -ahead, 0.06F * s);
     return {Bone::hips,
             waist + Vector3f(-out_m - 0.03F, 0.02F * sign, -0.02F * s),
             {-0.5F, 0.8F * sign, -0.3F}};
   }
   const float out_m = body_reach(walker, {Bone::spine, Bone::chest}, chest, ahead, 0.07F * s);
-  if (spot == Spot::elbow) {
+  if (spot == HandSpot::elbow) {
     // One forearm above the other.
     return {Bone::chest,
             chest + Vector3f(out_m + 0.02F, -0.075F * s * sign, (sign > 0 ? -0.025F : 0.005F) * s),
@@ -75,29 +75,29 @@ Place on_trunk(const Walker& walker, float sign, Spot spot) {
           {-0.35F, 0.35F * sign, -1}};
 }
 
-Place on_head(const Walker& walker, float sign, Spot spot) {
+Place on_head(const Walker& walker, float sign, HandSpot spot) {
   const float s = walker.stature_m;
   const std::initializer_list<Bone> head = {Bone::head};
   const Vector3f joint = rest_joint(walker, Bone::head);
   const Vector3f middle = joint + Vector3f(0, 0, 0.045F * s);
   const float face_m = body_reach(walker, head, middle, Vector3f::UnitX(), 0.055F * s);
-  if (spot == Spot::ear) {
+  if (spot == HandSpot::ear) {
     const float out_m = body_reach(walker, head, middle, sign * Vector3f::UnitY(), 0.045F * s);
     return {Bone::head,
             middle + Vector3f(0.01F, sign * (out_m + 0.025F), -0.012F * s),
             {0.5F, 0.6F * sign, -1}};
   }
-  if (spot == Spot::mouth) {
+  if (spot == HandSpot::mouth) {
     return {Bone::head,
             joint + Vector3f(face_m + 0.03F, 0.012F * s * sign, 0.012F * s),
             {0.1F, 0.6F * sign, -1}};
   }
-  if (spot == Spot::eyes) {
+  if (spot == HandSpot::eyes) {
     return {Bone::head,
             middle + Vector3f(face_m + 0.15F * s, 0.03F * s * sign, 0.005F * s),
             {0, 0.7F * sign, -1}};
   }
-  if (spot == Spot::overhead) {
+  if (spot == HandSpot::overhead) {
     return {
         Bone::chest, joint + Vector3f(0.14F * s, 0.05F * s * sign, 0.2F * s), {0.3F, sign, -0.6F}};
   }
@@ -107,15 +107,15 @@ Place on_head(const Walker& walker, float sign, Spot spot) {
           {0.6F, sign, -0.15F}};
 }
 
-Place find_place(const Walker& walker, Side side, Spot spot) {
+Place find_place(const Walker& walker, Side side, HandSpot spot) {
   const float sign = side_sign(side);
-  if (spot == Spot::knee) {
+  if (spot == HandSpot::knee) {
     const Bone shin = on(side, Bone::left_shin);
     return {on(side, Bone::left_thigh),
             rest_joint(walker, shin) + Vector3f(0.035F * walker.stature_m, 0, 0.01F),
             {-0.3F, sign, -0.6F}};
   }
-  const bool is_on_trunk = spot <= Spot::chest;
+  const bool is_on_trunk = spot <= HandSpot::chest;
   return is_on_trunk ? on_trunk(walker, sign, spot) : on_head(walker, sign, spot);
 }
 
@@ -127,12 +127,13 @@ Vector3f posed_point(const Walker& walker, const Pose& pose, const Place& place)
 
 }  // namespace
 
-void put_hand(const Walker& walker, Side side, Spot spot, Figure& figure) {
+void put_hand(const Walker& walker, Side side, HandSpot spot, Figure& figure) {
   put_hand(walker, side, spot, spot, 0, figure);
 }
 
-void put_hand(const Walker& walker, Side side, Spot from, Spot to, double share, Figure& figure) {
-  const bool needs_legs = from == Spot::knee || to == Spot::knee;
+void put_hand(const Walker& walker, Side side, HandSpot from, HandSpot to, double share,
+              Figure& figure) {
+  const bool needs_legs = from == HandSpot::knee || to == HandSpot::knee;
   const Pose posed = needs_legs ? solve(walker, figure) : figure.pose;
   const Place first = find_place(walker, side, from);
   const Place second = find_place(walker, side, to);
@@ -144,8 +145,9 @@ void put_hand(const Walker& walker, Side side, Spot from, Spot to, double share,
 }
 
 bool is_hand_busy(const Walker& walker, Side side) {
-  const auto grip = find_grip(walker.manner.carries, walker.joints);
-  return grip && grip->hand == on(side, Bone::left_hand);
+  const std::vector<Grip> grips = find_grips(walker.manner.carries, walker.joints);
+  return std::any_of(grips.begin(), grips.end(),
+                     [&](const Grip& grip) { return grip.hand == on(side, Bone::left_hand); });
 }
 
 }  // namespace throng::skinning

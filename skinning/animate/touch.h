@@ -8,7 +8,7 @@
 namespace throng::skinning {
 
 /// Where a hand is put.
-enum class Spot : std::uint8_t {
+enum class HandSpot : std::uint8_t {
   pocket,
   waist,  ///< the side of it
   back,   ///< behind the waist
@@ -24,10 +24,11 @@ enum class Spot : std::uint8_t {
 
 /// Moves the palm of a hand to a spot. Trunk, head and, for
 /// the knee, the feet of `figure` must be posed. Clothes and belly are taken into account.
-void put_hand(const Walker& walker, Side side, Spot spot, Figure& figure);
+void put_hand(const Walker& walker, Side side, HandSpot spot, Figure& figure);
 
 /// As above, between two spots: `share` 0 is at `from`, 1 at `to`.
-void put_hand(const Walker& walker, Side side, Spot from, Spot to, double share, Figure& figure);
+void put_hand(const Walker& walker, Side side, HandSpot from, HandSpot to, double share,
+              Figure& figure);
 
 /// Whether a hand holds an item where it is.
 bool is_hand_busy(const Walker& walker, Side side);

@@ -245,7 +245,7 @@ class Bakery {
     for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
       if (level > 0) {
-        const std::size_t carried = item ? item->indices.size() / 3 : 0;
+        const std::size_t carried = item && !is_led(carries) ? item->indices.size() / 3 : 0;
         const std::size_t triangles = kDetailLevels[level].triangles - carried;
         // Coarse surfaces that are fitted on very different poses lose the shape of each.
         constexpr std::size_t kFirstWithoutFolds = 5;

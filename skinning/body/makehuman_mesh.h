@@ -11,8 +11,8 @@
 
 namespace throng::skinning {
 
-/// Skinning weights of a vertex for each Bone; they sum to 1.
-using BoneWeights = std::array<float, kBoneCount>;
+/// Skinning weights of a vertex for each Bone, and for kStillBone; they sum to 1.
+using BoneWeights = std::array<float, kBoneCount + 1>;
 
 /// A face: indices of its vertices and of its texture coordinates.
 struct Quad {

@@ -98,7 +98,7 @@ Eigen::Vector3f move_point(const Eigen::Vector3f& point, const BoneWeights& weig
 }
 
 void set_weights(Vertex& vertex, const BoneWeights& weights) {
-  std::array<std::size_t, kBoneCount> order{};
+  std::array<std::size_t, kBoneCount + 1> order{};
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });

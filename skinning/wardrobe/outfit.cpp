@@ -180,7 +180,11 @@ class Stylist {
                 : std::vector<Share>{{Carry::backpack, age < 70 ? 0.15 : 0},
                                      {Carry::shoulder_bag, 0.08 + 0.05 * women},
                                      {Carry::handbag, 0.02 + 0.14 * women},
-                                     {Carry::umbrella, 0.18}};
+                                     {Carry::umbrella, 0.18},
+                                     {Carry::walking_stick, age < 70 ? 0 : 0.2},
+                                     {Carry::suitcase, age < 75 ? 0.05 : 0},
+                                     {Carry::pram, age < 45 ? 0.02 + 0.03 * women : 0},
+                                     {Carry::bicycle, age < 70 ? 0.04 : 0}};
     double sum = 0;
     for (const Share& share : shares) {
       sum += share.share;
@@ -209,7 +213,10 @@ class Stylist {
     set_colors(Tint::bottom, draw_colors(bottom, kColors, random_));
     const bool trainers = garment(outfit_.shoes, Slot::shoes).label == "trainers";
     set_colors(Tint::shoes, draw_colors(trainers ? Dye::trainers : Dye::leather, kColors, random_));
-    const Dye item = outfit_.carries == Carry::umbrella ? Dye::umbrella : Dye::bag;
+    const bool bright = outfit_.carries == Carry::umbrella || outfit_.carries == Carry::bicycle;
+    const Dye item = bright                                    ? Dye::umbrella
+                     : outfit_.carries == Carry::walking_stick ? Dye::leather
+                                                               : Dye::bag;
     if (outfit_.carries != Carry::nothing) {
       set_colors(Tint::item, draw_colors(item, kColors, random_));
     }

@@ -22,7 +22,9 @@ const std::vector<Property>& properties() {
       {"state",
        {"waiting", "walking", "running", "following", "panicking", "lying", "falling", "getting_up",
         "sitting", "squatting"}},
-      {"carries", {"nothing", "backpack", "shoulder bag", "handbag", "umbrella"}},
+      {"carries",
+       {"nothing", "backpack", "shoulder bag", "handbag", "umbrella", "walking stick", "suitcase",
+        "pram", "bicycle"}},
   };
   return table;
 }

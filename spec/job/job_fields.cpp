@@ -105,6 +105,10 @@ void add_crowd_fields(FieldTable<JobSpec>& table) {
             at(&JobSpec::crowd, &sim::CrowdSpec::compliance),
             "Probability that a person near a guide follows it; multiplies that of the "
             "behavior file.");
+  table.add("crowd/leading", "Leading", "", numbers(0, 1),
+            at(&JobSpec::crowd, &sim::CrowdSpec::leading),
+            "Share of people who lead something on wheels: a suitcase, a pram or a bicycle. They "
+            "take up more room and are slower.");
   table.add(
       "crowd/physical", "Physical", "", booleans(),
       at(&JobSpec::crowd, &sim::CrowdSpec::physical, &crowd::Physical::on),

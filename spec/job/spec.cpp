@@ -71,6 +71,7 @@ JobSpec job_from_json(json value, const std::string& source, std::vector<Problem
 skinning::Styling styling_in(const JobSpec& job, render::Weather weather) {
   skinning::Styling styling = job.styling;
   if (weather != render::Weather::rain) styling.umbrellas = 0;
+  styling.leading = job.crowd.leading;
   return styling;
 }
 

@@ -37,7 +37,8 @@ JobSpec parse_job(std::string_view text, const std::string& source);
 /// reads the same job from it.
 nlohmann::json to_json(const JobSpec& job);
 
-/// The styling of the job's people in this weather: umbrellas only in rain.
+/// The styling of the job's people in this weather: umbrellas only in rain, and those who lead
+/// something as in the simulation.
 skinning::Styling styling_in(const JobSpec& job, render::Weather weather);
 
 /// Whether fields differ between runs, by several scenarios or `randomize`.

@@ -88,6 +88,7 @@ struct CrowdSpec {
   crowd::ConstantsChoice constants = crowd::ConstantsChoice::best;
   double compliance = 1;  ///< probability that a person near a guide follows it
   crowd::Physical physical;
+  double leading = 0;  ///< share of people who lead something on wheels (skinning::is_leading)
 };
 
 /// Everything that determines a run, except the scenario.

@@ -48,7 +48,7 @@ TEST_F(ClassExports, PanopticListsExactlyTheSegmentsOfTheImage) {
     }
   }
   EXPECT_GT(umbrellas, 0U);
-  EXPECT_EQ(list.at("categories").at(4).at("name"), "umbrella");
+  EXPECT_EQ(list.at("categories").at(4).at("name"), "accessory");
 }
 
 /// Checks the members that panopticapi's converters remove from each category, and that its

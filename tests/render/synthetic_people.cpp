@@ -225,6 +225,20 @@ skinning::Population under_umbrellas(float half_m, std::size_t characters) {
   return people;
 }
 
+skinning::Population behind_prams(std::size_t characters) {
+  skinning::Population people = synthetic_people(characters);
+  const Box pram = {static_cast<Bone>(skinning::kStillBone),
+                    Tint::item,
+                    kCloth,
+                    {0.6F, -0.3F, 0.1F},
+                    {1.2F, 0.3F, 0.9F}};
+  for (skinning::Character& character : people.characters) {
+    character.carries = skinning::Carry::pram;
+    for (skinning::Mesh& level : character.levels) add_box(pram, 1, level);
+  }
+  return people;
+}
+
 PersonInstance standing(const skinning::Population& population, std::uint32_t agent, double x,
                         double y, double yaw_rad) {
   PersonInstance person;

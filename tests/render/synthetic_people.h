@@ -18,6 +18,9 @@ skinning::Population synthetic_people(std::size_t characters = 2);
 /// The same people, each under a square umbrella of this half width, 1.9 m above the ground.
 skinning::Population under_umbrellas(float half_m, std::size_t characters = 2);
 
+/// The same people, each behind a box on the ground, 0.6 to 1.2 m ahead, as behind a pram.
+skinning::Population behind_prams(std::size_t characters = 2);
+
 /// Somebody of `population` who stands still.
 PersonInstance standing(const skinning::Population& population, std::uint32_t agent, double x,
                         double y, double yaw_rad = 0);

@@ -92,6 +92,32 @@ TEST_P(Umbrella, MovesWithItsOwner) {
   EXPECT_LT(moved_px, -2);  // to the world's left is to the image's
 }
 
+TEST_P(Umbrella, APramHasItsClassAndNoneOfTheBodysMotion) {
+  RenderOptions with_classes = options();
+  with_classes.semantic = true;
+  Stage stage{open_ground(), {}, with_classes, behind_prams()};
+  PersonInstance somebody = stage.standing(4, 0.5, 0.2, 0.4);
+  const Frame still = stage.draw(from_above(), {somebody});
+  std::uint64_t pixels = 0;
+  for (std::size_t i = 0; i < still.id.size(); ++i) {
+    const bool is_pram = is_umbrella(still.id[i]);
+    ASSERT_EQ(is_pram,
+              still.surface[i] == static_cast<std::uint8_t>(world::SemanticClass::stroller));
+    ASSERT_TRUE(!is_pram || still.id[i] == id_of_umbrella(4));
+    pixels += is_pram ? 1 : 0;
+  }
+  EXPECT_GT(pixels, 1000U);
+  // From behind the box nothing of the body is before it.
+  const camera::Camera front = camera_at({5, 0.2, 2}, 180, -15, 320, 240);
+  somebody = stage.standing(4, 0, 0, 0);
+  const Mask before = instance_mask(stage.draw(front, {somebody}), id_of_umbrella(4));
+  somebody.pose = {3, 4, 0.5F};
+  const Mask walking = instance_mask(stage.draw(front, {somebody}), id_of_umbrella(4));
+  EXPECT_GT(before.pixels, 500U);
+  EXPECT_EQ(walking.pixels, before.pixels);
+  EXPECT_EQ(walking.box.min(), before.box.min());
+}
+
 INSTANTIATE_TEST_SUITE_P(Qualities, Umbrella, ::testing::Values(Quality::draft, Quality::standard),
                          [](const auto& tried) {
                            return tried.param == Quality::draft ? "draft" : "standard";

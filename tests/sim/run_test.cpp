@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/files/hash.h"
 #include "places/scenarios/blueprint/load_scenario.h"
+#include "spec/skinning/styling.h"
 #include "tests/places/scenarios/square.h"
 #include "tests/world/temporary_folder.h"
 #include "world/trace.h"
@@ -486,6 +487,24 @@ TEST(LoadPeople, AreThoseWhoRunAndHaveNoPathsYet) {
     const auto is_undirected = [](float yaw_rad) { return yaw_rad == 0; };
     EXPECT_TRUE(std::ranges::all_of(people.yaws_rad(), is_undirected)) << id;
   }
+}
+
+TEST(LoadPeople, LeadersTakeUpMoreRoomAndAreSlower) {
+  const auto scenario =
+      scenarios::find_scenario(source_folder() / "scenarios", "shopping_street/everyday");
+  const crowd::Simulation alone = load_people(scenario, 7, {});
+  CrowdSpec spec;
+  spec.leading = 0.3;
+  const crowd::Simulation people = load_people(scenario, 7, spec);
+  std::size_t leading = 0;
+  for (std::uint32_t agent = 0; agent < people.agent_count(); ++agent) {
+    const bool leads = skinning::is_leading(7, agent, 0.3);
+    EXPECT_EQ(people.radii_m()[agent], leads ? 0.4F : alone.radii_m()[agent]);
+    EXPECT_FLOAT_EQ(people.desired_speeds_mps()[agent],
+                    (leads ? 0.9F : 1.0F) * alone.desired_speeds_mps()[agent]);
+    leading += leads ? 1 : 0;
+  }
+  EXPECT_GT(leading, people.agent_count() / 5);
 }
 
 }  // namespace

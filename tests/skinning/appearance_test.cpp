@@ -213,5 +213,30 @@ TEST(Umbrellas, StayShutWhereNobodyHasOneAndUpWhereAllHave) {
   EXPECT_EQ(share_under_umbrellas(population, 0), 1);
 }
 
+TEST(Leading, IsForThoseForWhomTheCrowdMakesRoom) {
+  Population population = make_people(24);
+  population.characters[3].carries = Carry::pram;
+  population.characters[9].carries = Carry::bicycle;
+  population.characters[11].carries = Carry::walking_stick;
+  Styling styling;
+  const auto carries = [&](std::uint32_t agent, Spot spot) {
+    return population.characters[sample_appearance(population, 9, agent, styling, place).character]
+        .carries;
+  };
+  int leading = 0;
+  int leaning = 0;
+  for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
+    styling.leading = 0;
+    ASSERT_FALSE(is_led(carries(agent, Spot::ground)));
+    leaning += carries(agent, Spot::ground) == Carry::walking_stick ? 1 : 0;
+    styling.leading = 0.2;
+    ASSERT_EQ(is_led(carries(agent, Spot::ground)), is_leading(9, agent, 0.2));
+    leading += is_leading(9, agent, 0.2) ? 1 : 0;
+    ASSERT_EQ(carries(agent, Spot::stand), Carry::nothing);
+  }
+  EXPECT_NEAR(static_cast<double>(leading) / kAgents, 0.2, 0.04);
+  EXPECT_GT(leaning, 0);
+}
+
 }  // namespace
 }  // namespace throng::skinning

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/geometry/angle.h"
+#include "skinning/items.h"
 #include "tests/skinning/walkers.h"
 
 namespace throng::skinning {
@@ -215,6 +216,61 @@ TEST(Gait, AnUmbrellaIsHeldInItsPlaceThroughoutTheStride) {
     const Eigen::Vector3f hand = joint_at(walker, palette, Bone::right_hand);
     EXPECT_GT(hand.x(), chest.x() + 0.1F);
     EXPECT_GT(hand.z(), 1.0F);
+  }
+}
+
+TEST(Gait, HandsStayOnTheHandlesOfWhatIsLed) {
+  for (const float scale : {0.84F, 1.0F, 1.1F}) {
+    for (const double age : {25.0, 70.0}) {
+      Walker walker = made_up_walker(scale);
+      walker.manner.age_years = age;
+      for (const Carry carries : {Carry::suitcase, Carry::pram, Carry::bicycle}) {
+        walker.manner.carries = carries;
+        for (const Clip& clip : {clip_named("walk", 0.5), clip_named("walk", 0.8),
+                                 clip_named("idle", 0), clip_named("idle_left", 0)}) {
+          for (const Palette& palette : bake_clip(walker, clip)) {
+            for (const Grip& grip : find_grips(carries, walker.joints)) {
+              const Side side = grip.hand == Bone::left_hand ? Side::left : Side::right;
+              const Eigen::Vector3f& wrist = walker.joints[index_from(grip.hand)];
+              const Eigen::Vector3f& elbow =
+                  walker.joints[index_from(on(side, Bone::left_forearm))];
+              const Eigen::Vector3f palm = wrist + 0.3F * (wrist - elbow);
+              const Eigen::Vector3f at = palette[index_from(grip.hand)] * palm.homogeneous();
+              EXPECT_LT((at - grip.point).norm(), 0.03F)
+                  << scale << ' ' << age << ' ' << static_cast<int>(carries) << ' ' << clip.name;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Gait, NobodyFallsIntoAPramOrOnACase) {
+  Walker walker = made_up_walker();
+  for (const auto& [carries, name] :
+       {std::pair(Carry::pram, "fall_forwards"), std::pair(Carry::suitcase, "fall_backwards")}) {
+    walker.manner.carries = carries;
+    const Palette lying = bake_clip(walker, clip_named(name, 0)).back();
+    const float head_x = joint_at(walker, lying, Bone::head).x();
+    EXPECT_GT(carries == Carry::pram ? -head_x : head_x, 0.5F) << name;
+  }
+}
+
+TEST(Gait, AWalkingStickTouchesTheGround) {
+  for (const float scale : {0.84F, 1.0F, 1.1F}) {
+    Walker walker = made_up_walker(scale);
+    walker.manner.age_years = 80;
+    walker.manner.carries = Carry::walking_stick;
+    const Eigen::Vector4f tip = find_stick(walker.joints).tip.homogeneous();
+    for (const Clip& clip :
+         {clip_named("walk", 0.5), clip_named("walk", 0.8), clip_named("idle", 0)}) {
+      for (const Palette& palette : bake_clip(walker, clip)) {
+        const Eigen::Vector3f at = palette[index_from(Bone::right_hand)] * tip;
+        EXPECT_NEAR(at.z(), 0, 0.01F) << scale << ' ' << clip.name;
+        EXPECT_GT(at.x(), joint_at(walker, palette, Bone::right_hand).x()) << clip.name;
+      }
+    }
   }
 }
 

@@ -328,6 +328,12 @@ TEST_F(Spec, UmbrellasAreUpInTheRain) {
   EXPECT_GT(styling_in(parse(R"({"scenario": "yard"})"), render::Weather::rain).umbrellas, 0);
 }
 
+TEST_F(Spec, ImagesHaveTheLeadersOfTheRun) {
+  const JobSpec job = parse(R"({"scenario": "yard", "crowd": {"leading": 0.1}})");
+  EXPECT_EQ(job.crowd.leading, 0.1);
+  EXPECT_EQ(styling_in(job, render::Weather::clear).leading, 0.1);
+}
+
 TEST_F(Spec, SyntaxErrorsNameLineAndColumn) {
   EXPECT_EQ(pointers_of("{\n  \"scenario\": yard}"), std::vector<std::string>{"line 2, column 15"});
   EXPECT_EQ(list_problems("").size(), 1U);

@@ -12,7 +12,7 @@ function nameOfInstance(instance: number): string {
   if (instance >= 0xe00000) return `drone ${instance - 0xe00000}`;
   if (instance >= 0xc00000) return `prop ${instance - 0xc00000}`;
   if (instance >= 0x800000) return `building ${instance - 0x800000}`;
-  return instance >= 0x400000 ? `the umbrella of person ${instance - 0x400000}` : `person ${instance}`;
+  return instance >= 0x400000 ? `what person ${instance - 0x400000} holds or leads` : `person ${instance}`;
 }
 
 function rowsOf(annotation: Annotation, track: Track | null): [string, string][] {
