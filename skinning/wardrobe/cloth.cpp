@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/text/words.h"
 #include "skinning/body/raster.h"
+#include "skinning/wardrobe/pattern.h"
 
 namespace throng::skinning {
 
@@ -47,33 +48,6 @@ void for_each_texel(const ClothFaces& faces, const Image& image, const Visit& vi
                                              barycentric.z() * positions[quad.vertex[third]]));
                      });
     }
-  }
-}
-
-// 1 where a wave of this period is high, with soft edges.
-double wave(double at, double period, double high_share) {
-  constexpr double kEdge = 0.06;  // of a period
-  const double phase = at / period - std::floor(at / period);
-  const double inside = 0.5 * high_share - std::abs(phase - 0.5);
-  return std::clamp(0.5 + inside / kEdge, 0.0, 1.0);
-}
-
-// How much light the pattern leaves at a point of the unmorphed body.
-double pattern_at(Cloth cloth, const Eigen::Vector3f& point) {
-  switch (cloth) {
-    case Cloth::stripes:
-      return 1 - 0.45 * wave(point.z(), 0.055, 0.42);
-    case Cloth::band: {
-      constexpr float kBreastM = 0.39F;  // above the middle of the body
-      constexpr float kHalfWidthM = 0.05F;
-      const bool on_band =
-          std::abs(point.z() - kBreastM) < kHalfWidthM && std::abs(point.y()) < 0.2F;
-      return on_band ? 0.5 : 1;
-    }
-    case Cloth::checks:
-      return (1 - 0.3 * wave(point.z(), 0.07, 0.5)) * (1 - 0.3 * wave(point.y(), 0.07, 0.5));
-    default:
-      return 1;
   }
 }
 
@@ -150,6 +124,7 @@ Image plain_cloth(const fs::path& folder, const Mask& covered) {
       const double along = relief->rgba[at + 1] / 127.5 - 1;
       shade *= std::clamp(1 + 0.45 * along - 0.35 * across, 0.55, 1.3);
     }
+    shade = std::max(shade, kMinFold);
     const double value = std::min(255.0, kMedianShade * shade);
     image.rgba[at] = image.rgba[at + 1] = image.rgba[at + 2] =
         static_cast<std::uint8_t>(std::lround(value));
@@ -158,15 +133,53 @@ Image plain_cloth(const fs::path& folder, const Mask& covered) {
   return image;
 }
 
-void paint_pattern(Image& image, const ClothFaces& faces, Cloth cloth) {
-  if (cloth != Cloth::stripes && cloth != Cloth::band && cloth != Cloth::checks) return;
+void paint_pattern(Image& image, const ClothFaces& faces, Cloth cloth, const Rgb& accent) {
+  if (!has_pattern(cloth)) return;
+  // Retroreflective gray on the yellow of vests, which is the tint.
+  constexpr std::array<double, 3> kGlint = {0.8, 0.77, 1.24};
   const Image unpainted = image;
   for_each_texel(faces, image, [&](int x, int y, const Eigen::Vector3f& point) {
-    const double light = pattern_at(cloth, point);
+    const PatternPaint paint = paint_at(cloth, point);
+    const std::uint8_t* from = unpainted.pixel(x, y);
+    std::uint8_t* to = image.pixel(x, y);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const double color = std::lerp(std::lerp(1.0, accent[channel] / 255.0, paint.accent),
+                                     kGlint[channel], paint.glint);
+      to[channel] = static_cast<std::uint8_t>(
+          std::lround(std::clamp(paint.light * color * from[channel], 0.0, 255.0)));
+    }
+  });
+}
+
+void thin_out(Image& image, const ClothFaces& faces,
+              const std::function<float(const Eigen::Vector3f&)>& density_at) {
+  const Image full = image;
+  for_each_texel(faces, image, [&](int x, int y, const Eigen::Vector3f& point) {
+    image.pixel(x, y)[3] =
+        static_cast<std::uint8_t>(std::lround(density_at(point) * full.pixel(x, y)[3]));
+  });
+}
+
+void paint_strands(Image& image, const ClothFaces& faces, const Mask& covered) {
+  // Shades as broad as this are painted light, which is rendered anyway.
+  constexpr int kBroad = 16;
+  const Image broad = resized(resized(image, std::max(image.width / kBroad, 1)), image.width);
+  const Image painted = image;
+  for (std::size_t at = 0; at < covered.size(); ++at) {
+    if (covered[at] == 0 || broad.rgba.size() != image.rgba.size()) continue;
+    const double fine = (luma(&painted.rgba[4 * at]) + 6.0) / (luma(&broad.rgba[4 * at]) + 6.0);
+    const double shade = kMedianShade * std::clamp(std::pow(fine, 1.4), 0.6, 1.24);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      image.rgba[4 * at + channel] = static_cast<std::uint8_t>(std::min(255.0, shade));
+    }
+  }
+  const Image unpainted = image;
+  for_each_texel(faces, image, [&](int x, int y, const Eigen::Vector3f& point) {
+    const double strand = strand_light(point);
     const std::uint8_t* from = unpainted.pixel(x, y);
     std::uint8_t* to = image.pixel(x, y);
     for (int channel = 0; channel < 3; ++channel) {
-      to[channel] = static_cast<std::uint8_t>(std::lround(light * from[channel]));
+      to[channel] = static_cast<std::uint8_t>(std::min(255L, std::lround(strand * from[channel])));
     }
   });
 }

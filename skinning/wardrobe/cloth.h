@@ -1,7 +1,9 @@
 // Makes textures for clothes that are tinted per instance, with only light and shade.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <span>
 
 #include "skinning/body/makehuman.h"
@@ -13,6 +15,10 @@ namespace throng::skinning {
 /// Median sRGB value of a tinted piece's texture: bright enough for white shirts, dark enough for
 /// highlights.
 inline constexpr std::uint8_t kMedianShade = 205;
+
+/// The shade of the deepest folds of plain cloth, of kMedianShade: black cloth still reflects as
+/// much there as CIE L = 6.
+inline constexpr double kMinFold = 0.72;
 
 /// Faces of a proxy that share an image.
 struct ClothFaces {
@@ -35,7 +41,16 @@ void reduce_to_shade(Image& image, const Mask& covered, double contrast);
 /// shade of its image if the package has no such maps.
 Image plain_cloth(const std::filesystem::path& folder, const Mask& covered);
 
-/// Adds the cloth's pattern, projected on the unmorphed body in the A-pose.
-void paint_pattern(Image& image, const ClothFaces& faces, Cloth cloth);
+/// Adds the cloth's pattern, projected on the unmorphed body in the A-pose; `accent` multiplies the
+/// color where the pattern has a second one.
+void paint_pattern(Image& image, const ClothFaces& faces, Cloth cloth, const Rgb& accent);
+
+/// Multiplies alpha by a function of the place on the unmorphed body.
+void thin_out(Image& image, const ClothFaces& faces,
+              const std::function<float(const Eigen::Vector3f&)>& density_at);
+
+/// Hair from its image: the painted strands without broad shades, finer strands that run down from
+/// the crown, and highlights where the light from above falls.
+void paint_strands(Image& image, const ClothFaces& faces, const Mask& covered);
 
 }  // namespace throng::skinning

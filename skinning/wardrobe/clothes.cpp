@@ -28,11 +28,17 @@ std::optional<ClothesSlot> clothes_slot(Slot slot) {
   return std::nullopt;
 }
 
-/// Descriptions call trousers by their hem and cloth, and a dress of two pieces a dress, whatever
-/// garments the package has (describe_outfit() in wardrobe/outfit.h).
+/// Descriptions call trousers by their hem and cloth, and a dress of two pieces a dress, and tops
+/// by their pattern, whatever garments the package has (describe_outfit() in wardrobe/outfit.h).
 constexpr std::array kDescribed = {Clothing{ClothesSlot::lower, "shorts"},
                                    Clothing{ClothesSlot::lower, "jeans"},
-                                   Clothing{ClothesSlot::whole, "dress"}};
+                                   Clothing{ClothesSlot::whole, "dress"},
+                                   Clothing{ClothesSlot::upper, "coat"},
+                                   Clothing{ClothesSlot::upper, "jacket"},
+                                   Clothing{ClothesSlot::upper, "padded jacket"},
+                                   Clothing{ClothesSlot::upper, "hoodie"},
+                                   Clothing{ClothesSlot::upper, "sports shirt"},
+                                   Clothing{ClothesSlot::upper, "high-visibility vest"}};
 
 std::optional<Clothing> clothing_named(std::string_view word) {
   for (const Clothing& described : kDescribed) {

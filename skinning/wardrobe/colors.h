@@ -20,7 +20,11 @@ enum class Dye : std::uint8_t {
   leather,
   trainers,
   bag,
-  umbrella
+  umbrella,
+  coat,
+  light,  ///< for cloth with a second color, which is darker
+  reflective,
+  camouflage
 };
 
 /// Samples `count` colors of a dye by their frequency, with repetition.

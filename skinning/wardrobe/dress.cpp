@@ -10,21 +10,12 @@
 #include <set>
 
 #include "skinning/body/stance.h"
+#include "skinning/wardrobe/headwear.h"
+#include "skinning/wardrobe/layers.h"
 
 namespace throng::skinning {
 
 namespace {
-
-std::vector<Eigen::Vector3f> fit(const Proxy& proxy, std::span<const Eigen::Vector3f> body) {
-  std::vector<Eigen::Vector3f> fitted;
-  fitted.reserve(proxy.anchors.size());
-  for (const Proxy::Anchor& anchor : proxy.anchors) {
-    Eigen::Vector3f position = anchor.offset;
-    for (std::size_t i = 0; i < 3; ++i) position += anchor.weight[i] * body[anchor.body_vertex[i]];
-    fitted.push_back(position);
-  }
-  return fitted;
-}
 
 float below_waist(const BoneWeights& weights) {
   float sum = weights[index_from(Bone::hips)];
@@ -79,22 +70,6 @@ CoveredSkin covered_skin(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   return covered;
 }
 
-// Pushes a vertex inwards along its normal.
-void tuck_in(Surface& surface, std::size_t i, float tuck_m, const Palette& to_neutral) {
-  surface.positions[i] -= tuck_m * surface.normals[i];
-  // The A-pose differs by a rotation: that of the bones.
-  Eigen::Matrix3f turn = Eigen::Matrix3f::Zero();
-  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-    turn += surface.weights[i][bone] * to_neutral[bone].leftCols<3>();
-  }
-  surface.fitted[i] -= tuck_m * (turn.transpose() * surface.normals[i]).normalized();
-}
-
-bool all_corners(const Surface& surface, std::size_t at, const auto& holds) {
-  return holds(surface.indices[at]) && holds(surface.indices[at + 1]) &&
-         holds(surface.indices[at + 2]);
-}
-
 // Lowest point of what covers the shins, per leg side; large when the legs are bare.
 float lowest_on_shins(std::span<const Surface> bottoms) {
   float hem = std::numeric_limits<float>::max();
@@ -108,49 +83,6 @@ float lowest_on_shins(std::span<const Surface> bottoms) {
   }
   return hem;
 }
-
-float trunk_weight(const BoneWeights& weights) {
-  return weights[index_from(Bone::hips)] + weights[index_from(Bone::spine)] +
-         weights[index_from(Bone::chest)];
-}
-
-// Heights at which surfaces end on the trunk, in sectors all around it.
-class Rim {
- public:
-  enum class End : std::uint8_t { lower, upper };
-  static constexpr std::size_t kSectors = 16;
-
-  Rim(std::span<const Surface> surfaces, const Joints& joints, End end) {
-    const float none = end == End::lower ? std::numeric_limits<float>::max()
-                                         : std::numeric_limits<float>::lowest();
-    height_m_.fill(none);
-    const Eigen::Vector3f& hips = joints[0];
-    for (const Surface& surface : surfaces) {
-      for (const std::uint32_t index : surface.indices) {
-        const BoneWeights& weights = surface.weights[index];
-        if (trunk_weight(weights) < (end == End::lower ? 0.6F : 0.1F)) continue;
-        const Eigen::Vector3f& p = surface.positions[index];
-        float& here = height_m_[sector_of(p - hips)];
-        here = end == End::lower ? std::min(here, p.z()) : std::max(here, p.z());
-      }
-    }
-  }
-
-  float operator[](std::size_t sector) const { return height_m_[sector]; }
-  /// The highest around a direction.
-  float highest(const Eigen::Vector3f& from_hips) const {
-    const std::size_t here = sector_of(from_hips);
-    return std::max({height_m_[(here + kSectors - 1) % kSectors], height_m_[here],
-                     height_m_[(here + 1) % kSectors]});
-  }
-  static std::size_t sector_of(const Eigen::Vector3f& from_hips) {
-    const double turn = std::atan2(from_hips.y(), from_hips.x()) / (2 * std::numbers::pi) + 0.5;
-    return std::min(static_cast<std::size_t>(turn * kSectors), kSectors - 1);
-  }
-
- private:
-  std::array<float, kSectors> height_m_{};
-};
 
 // Between a short top and a low waistband skin is visible that both would have covered with the
 // garments they were designed for.
@@ -181,63 +113,11 @@ void bare_waist(const MakeHuman& makehuman, const DressedPerson& dressed,
   }
 }
 
-Surface wear(const Garment& garment, const DressedPerson& dressed) {
-  const std::vector<Eigen::Vector3f> fitted = fit(*garment.proxy, dressed.body);
-  Surface surface = make_surface(garment.quads, garment.proxy->uvs, fitted, garment.proxy->weights,
-                                 dressed.to_neutral);
-  surface.texture = garment.texture;
-  surface.tint = garment.tint;
-  surface.alpha_tested = garment.alpha_tested;
-  return surface;
-}
-
-std::vector<Surface> wear_all(const Worn& worn, const DressedPerson& dressed) {
-  std::vector<Surface> surfaces;
-  surfaces.reserve(worn.pieces.size());
-  for (const Garment& garment : worn.pieces) surfaces.push_back(wear(garment, dressed));
-  return surfaces;
-}
-
-void cut_below(std::vector<Surface>& surfaces, float height_m) {
-  for (Surface& surface : surfaces) {
-    std::vector<float> above;
-    above.reserve(surface.fitted.size());
-    for (const Eigen::Vector3f& point : surface.fitted) above.push_back(point.z() - height_m);
-    cut_surface(surface, above);
-  }
-}
-
-// A waistband must not show through a shirt worn over it: what the shirt covers is rendered further
-// in, and what it covers well not at all. Hems are uneven, so that depends on the direction.
-void tuck_under(std::vector<Surface>& bottoms, const Rim& hem, const DressedPerson& dressed) {
-  constexpr float kOverlapM = 0.03F;
-  constexpr float kSoftM = 0.01F;
-  constexpr float kTuckM = 0.01F;
-  const Eigen::Vector3f& hips = dressed.joints[0];
-  const auto above_hem = [&](const Eigen::Vector3f& point) {
-    return point.z() - hem.highest(point - hips);
-  };
-  for (Surface& surface : bottoms) {
-    keep_triangles(surface, [&](std::size_t at) {
-      return !all_corners(surface, at, [&](std::uint32_t vertex) {
-        return above_hem(surface.positions[vertex]) > kOverlapM;
-      });
-    });
-    for (std::size_t i = 0; i < surface.positions.size(); ++i) {
-      const float share = std::clamp(above_hem(surface.positions[i]) / kSoftM, 0.0F, 1.0F);
-      if (share > 0) tuck_in(surface, i, share * kTuckM, dressed.to_neutral);
-    }
-  }
-}
-
-// Nor a shoe through trousers, nor hair through a hat.
-void hide_above(std::vector<Surface>& surfaces, float height_m) {
-  for (Surface& surface : surfaces) {
-    std::vector<float> below;
-    below.reserve(surface.positions.size());
-    for (const Eigen::Vector3f& point : surface.positions) below.push_back(height_m - point.z());
-    cut_surface(surface, below);
-  }
+// Height of a coat's hem in the A-pose, or far above the head without a coat.
+float coat_hem(const Outfit& outfit, const Joints& a_pose) {
+  if (outfit.coat <= 0) return std::numeric_limits<float>::max();
+  return std::lerp(a_pose[index_from(Bone::left_thigh)].z(),
+                   a_pose[index_from(Bone::left_shin)].z(), static_cast<float>(outfit.coat));
 }
 
 float lowest_point(std::span<const Surface> surfaces) {
@@ -366,6 +246,7 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   CoveredSkin covered = covered_skin(makehuman, wardrobe, person, dressed.body, hem);
 
   std::vector<Surface> tops = wear_all(wardrobe.top(outfit), dressed);
+  if (is_outerwear(outfit.top_cloth)) thicken(tops, kOuterwearM, dressed.to_neutral);
   std::vector<Surface> bottoms = wear_all(wardrobe.bottom(outfit), dressed);
   std::vector<Surface> shoes = wear_all(wardrobe.shoes(outfit), dressed);
   std::vector<Surface> hat = wear_all(wardrobe.hat(outfit), dressed);
@@ -380,11 +261,16 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
     tuck_under(bottoms, Rim(tops, dressed.joints, Rim::End::lower), dressed);
     bare_waist(makehuman, dressed, tops, bottoms, covered);
   }
+  add_tail(wardrobe.tail(outfit), coat_hem(outfit, stance.a_pose),
+           Rim(tops, dressed.joints, Rim::End::lower), dressed, bottoms);
   hide_above(shoes, lowest_on_shins(bottoms.empty() ? tops : bottoms) + kHemOverlapM);
   const float waist = stance.a_pose[index_from(Bone::spine)].z();
   const float shoulders = stance.a_pose[index_from(Bone::left_upper_arm)].z();
   cut_below(hair, waist + static_cast<float>(outfit.hair_cut) * (shoulders - waist));
-  if (!hat.empty()) {
+  for (Surface& surface : hair) surface.painted = is_made_here(outfit.hair);
+  if (is_made_here(outfit.hat)) {
+    hide_under(hair, hat);
+  } else if (!hat.empty()) {
     constexpr float kBrimShare = 0.3F;
     const float low = lowest_point(hat);
     hide_above(hair, low + kBrimShare * (highest_point(hat) - low));
@@ -393,16 +279,20 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   std::vector<Surface> face = wear_all(wardrobe.eyebrows(person.eyebrows), dressed);
   const Proxy& eyes = wardrobe.eyes();
   face.push_back(wear({&eyes, eyes.quads, Tint::none, false, person.eyes}, dressed));
+  std::vector<Surface> beard = wear_all(wardrobe.beard(outfit), dressed);
   for (Surface& surface : face) surface.painted = true;
+  for (Surface& surface : beard) surface.painted = true;
 
   // Triangles at full detail, below 8 000 in all: most where people look.
   auto& all = dressed.surfaces;
   add_simplified({skin_surface(makehuman, person, dressed, covered)}, 2200, all);
   add_simplified(std::move(tops), bottoms.empty() ? 2000 : 1300, all, Lined::yes);
-  add_simplified(std::move(bottoms), 800, all, Lined::yes);
+  add_simplified(std::move(bottoms), outfit.coat > 0 ? 1000 : 800, all, Lined::yes);
   add_simplified(std::move(shoes), 550, all);
   add_simplified(std::move(hair), hat.empty() ? 1250 : 900, all);
   add_simplified(std::move(hat), 350, all, Lined::yes);
+  add_simplified(wear_all(wardrobe.scarf(outfit), dressed), 240, all);
+  add_simplified(std::move(beard), 160, all);
   add_simplified(std::move(face), 250, all);
   put_on_ground(dressed, stance.highest);
   return dressed;

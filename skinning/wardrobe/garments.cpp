@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "skinning/wardrobe/headwear.h"
 
 namespace throng::skinning {
 
@@ -53,6 +54,14 @@ constexpr std::array kGarments = {
     GarmentInfo{"shoes06", "trainers", shoes, cc0, kAll},
     GarmentInfo{"fedora", "hat", hat, cc0, kAdults},
     GarmentInfo{"fedora_cocked", "hat", hat, cc0, kMen},
+    GarmentInfo{kCap, "cap", hat, cc0, kAll},
+    GarmentInfo{kKnittedHat, "knitted hat", hat, cc0, kAll},
+    GarmentInfo{kHeadscarf, "headscarf", hat, cc0, kWomen},
+    GarmentInfo{kScarf, "", hair, cc0, kAll},
+    GarmentInfo{kBeard, "", hair, cc0, kMen},
+    GarmentInfo{kMoustache, "", hair, cc0, kMen},
+    GarmentInfo{kCropped, "", hair, cc0, kMen},
+    GarmentInfo{kReceding, "", hair, cc0, kMen},
     GarmentInfo{"afro01", "", hair, cc0, kAll},
     GarmentInfo{"bob02", "", hair, cc0, kGirlsToo},
     GarmentInfo{"Braid01", "", hair, cc0, kGirlsToo},

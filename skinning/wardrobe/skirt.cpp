@@ -87,7 +87,7 @@ Proxy make_skirt(const MakeHuman& makehuman) {
   return proxy;
 }
 
-Image skirt_cloth(int size) {
+Image skirt_cloth(int size, double depth) {
   Image image(size, size);
   constexpr double kFolds = 11;
   for (int y = 0; y < size; ++y) {
@@ -95,7 +95,7 @@ Image skirt_cloth(int size) {
     for (int x = 0; x < size; ++x) {
       const double around = (x + 0.5) / size;
       const double fold = std::sin(2 * kPi * kFolds * around + 1.3 * std::sin(6 * kPi * around));
-      const double shade = 1 + 0.14 * std::min(1.0, 2 * down) * fold;
+      const double shade = 1 + depth * std::min(1.0, 2 * down) * fold;
       std::uint8_t* pixel = image.pixel(x, y);
       pixel[0] = pixel[1] = pixel[2] =
           static_cast<std::uint8_t>(std::lround(std::min(255.0, kMedianShade * shade)));

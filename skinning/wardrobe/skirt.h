@@ -12,7 +12,8 @@ namespace throng::skinning {
 /// coordinates run once around the body and from the waist to the ankles.
 Proxy make_skirt(const MakeHuman& makehuman);
 
-/// The texture of the skirt: light and shade of folds that widen downward.
-Image skirt_cloth(int size);
+/// The texture of the skirt: light and shade of folds that widen downward, up to `depth` lighter
+/// and darker.
+Image skirt_cloth(int size, double depth);
 
 }  // namespace throng::skinning

@@ -1,6 +1,7 @@
 #include "skinning/wardrobe/wardrobe.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
@@ -10,6 +11,7 @@
 #include "skinning/body/skin_tone.h"
 #include "skinning/skeleton.h"
 #include "skinning/wardrobe/cloth.h"
+#include "skinning/wardrobe/headwear.h"
 #include "skinning/wardrobe/reveal.h"
 #include "skinning/wardrobe/skirt.h"
 
@@ -66,6 +68,7 @@ void append(std::vector<Quad>& all, const std::vector<Quad>& more) {
 void settle_skin(const MakeHuman& makehuman, const std::string& kind, Proxy& proxy) {
   proxy.tucks.assign(proxy.hides.size(), false);
   if (kind != "clothes" && kind != "hair") return;
+  if (kind == "hair" && is_made_here(proxy.name)) return;  // it lies on the skin
   const std::vector<bool> under = skin_under(makehuman, proxy);
   const bool listed = std::find(proxy.hides.begin(), proxy.hides.end(), true) != proxy.hides.end();
   proxy.tucks = without_border(makehuman, under, 1);
@@ -88,7 +91,7 @@ fs::path skin_image(const fs::path& package, const std::string& skin) {
 std::set<fs::path> folders_used(const fs::path& package, const std::vector<PersonSpec>& people) {
   std::set<fs::path> folders = {proxy_folder(package, "eyes", "Low-Poly")};
   const auto add = [&](const char* kind, const std::string& name) {
-    if (!name.empty() && name != kSkirt) folders.insert(proxy_folder(package, kind, name));
+    if (!name.empty() && !is_made_here(name)) folders.insert(proxy_folder(package, kind, name));
   };
   for (const PersonSpec& person : people) {
     const Outfit& outfit = person.outfit;
@@ -103,16 +106,22 @@ std::set<fs::path> folders_used(const fs::path& package, const std::vector<Perso
 }
 
 Wardrobe::Key Wardrobe::key_of_top(const Outfit& outfit) {
-  if (outfit.bottom.empty()) return {outfit.top, Slot::dress, outfit.top_cloth, Tint::top};
-  if (outfit.top == outfit.bottom && outfit.one_piece) {
-    return {outfit.top, Slot::whole, outfit.top_cloth, Tint::top};
-  }
-  return {outfit.top, Slot::top, outfit.top_cloth, Tint::top};
+  Key key{outfit.top, Slot::top, outfit.top_cloth, Tint::top, outfit.accent};
+  if (outfit.bottom.empty()) key.slot = Slot::dress;
+  if (outfit.top == outfit.bottom && outfit.one_piece) key.slot = Slot::whole;
+  return key;
 }
 
 Wardrobe::Key Wardrobe::key_of_bottom(const Outfit& outfit) {
-  return {outfit.bottom, Slot::bottom, outfit.bottom_cloth,
-          outfit.one_piece ? Tint::top : Tint::bottom};
+  return {outfit.bottom,
+          Slot::bottom,
+          outfit.bottom_cloth,
+          outfit.one_piece ? Tint::top : Tint::bottom,
+          {255, 255, 255}};
+}
+
+Wardrobe::Key Wardrobe::key_of_tail(const Outfit& outfit) {
+  return {std::string(kSkirt), Slot::bottom, outfit.top_cloth, Tint::top, outfit.accent};
 }
 
 Wardrobe::Wardrobe(const MakeHuman& makehuman, const std::vector<PersonSpec>& people,
@@ -127,6 +136,9 @@ Wardrobe::Wardrobe(const MakeHuman& makehuman, const std::vector<PersonSpec>& pe
     add({outfit.shoes, Slot::shoes});
     if (!outfit.hat.empty()) add({outfit.hat, Slot::hat});
     if (!outfit.hair.empty()) add({outfit.hair, Slot::hair});
+    if (!outfit.beard.empty()) add({outfit.beard, Slot::hair});
+    if (outfit.scarf) add({std::string(kScarf), Slot::hat});
+    if (outfit.coat > 0) add(key_of_tail(outfit));
     add({person.eyebrows, Slot::hair});
     add_image(person.skin, skin_image(makehuman.folder(), person.skin), tone_skin);
     add_image(person.eyes, proxy_folder(makehuman.folder(), "eyes", "Low-Poly") / "textures" /
@@ -141,11 +153,18 @@ const Worn& Wardrobe::find(const Key& key) const {
 
 const Worn& Wardrobe::top(const Outfit& outfit) const { return find(key_of_top(outfit)); }
 const Worn& Wardrobe::bottom(const Outfit& outfit) const { return find(key_of_bottom(outfit)); }
+const Worn& Wardrobe::tail(const Outfit& outfit) const {
+  return outfit.coat > 0 ? find(key_of_tail(outfit)) : kNothing;
+}
 const Worn& Wardrobe::shoes(const Outfit& outfit) const {
   return find({outfit.shoes, Slot::shoes});
 }
 const Worn& Wardrobe::hat(const Outfit& outfit) const { return find({outfit.hat, Slot::hat}); }
 const Worn& Wardrobe::hair(const Outfit& outfit) const { return find({outfit.hair, Slot::hair}); }
+const Worn& Wardrobe::beard(const Outfit& outfit) const { return find({outfit.beard, Slot::hair}); }
+const Worn& Wardrobe::scarf(const Outfit& outfit) const {
+  return outfit.scarf ? find({std::string(kScarf), Slot::hat}) : kNothing;
+}
 const Worn& Wardrobe::eyebrows(const std::string& name) const { return find({name, Slot::hair}); }
 
 const std::string& Wardrobe::author_of(const std::string& proxy) const {
@@ -158,9 +177,11 @@ const Proxy& Wardrobe::load(const std::string& kind, const std::string& name) {
   const auto found = proxies_.find(name);
   if (found != proxies_.end()) return found->second;
   static_cast<void>(find_license(name));  // only what is listed with its terms gets in
-  Proxy proxy = name == kSkirt ? make_skirt(*makehuman_) : makehuman_->load_proxy(kind, name);
+  Proxy proxy = name == kSkirt       ? make_skirt(*makehuman_)
+                : is_made_here(name) ? make_headwear(*makehuman_, name)
+                                     : makehuman_->load_proxy(kind, name);
   settle_skin(*makehuman_, kind, proxy);
-  if (kind != "clothes") {
+  if (kind != "clothes" && !is_made_here(name)) {
     // Hair that partly hung on the neck would slip on a turning head.
     for (BoneWeights& weights : proxy.weights) {
       weights[index_from(Bone::head)] += std::exchange(weights[index_from(Bone::neck)], 0);
@@ -204,8 +225,8 @@ void Wardrobe::add_clothes(const Key& key, Worn& worn) {
     const bool main = key.cloth == Cloth::own || 4 * quads.size() > largest;
     append(main ? cloth.quads : trimmings.quads, quads);
   }
-  add_piece(worn, std::move(cloth), key.cloth, folder);
-  if (!trimmings.quads.empty()) add_piece(worn, std::move(trimmings), Cloth::print, folder);
+  add_piece(worn, std::move(cloth), key, key.cloth, folder);
+  if (!trimmings.quads.empty()) add_piece(worn, std::move(trimmings), key, Cloth::print, folder);
 }
 
 void Wardrobe::add_shoes(const Key& key, Worn& worn) {
@@ -223,8 +244,8 @@ void Wardrobe::add_shoes(const Key& key, Worn& worn) {
     const bool sock = shin > 0.3F * static_cast<float>(quads.size());
     append(sock ? socks.quads : shoes.quads, quads);
   }
-  if (!shoes.quads.empty()) add_piece(worn, std::move(shoes), Cloth::print, folder);
-  if (!socks.quads.empty()) add_piece(worn, std::move(socks), Cloth::print, folder);
+  if (!shoes.quads.empty()) add_piece(worn, std::move(shoes), key, Cloth::print, folder);
+  if (!socks.quads.empty()) add_piece(worn, std::move(socks), key, Cloth::print, folder);
 }
 
 void Wardrobe::add_head(const Key& key, Worn& worn) {
@@ -233,33 +254,55 @@ void Wardrobe::add_head(const Key& key, Worn& worn) {
   const char* kind = hat ? "clothes" : brow ? "eyebrows" : "hair";
   const Proxy& proxy = load(kind, key.name);
   worn.proxy = &proxy;
-  add_piece(worn, {&proxy, proxy.quads, hat ? Tint::shoes : Tint::hair, !hat, {}}, Cloth::print,
-            proxy_folder(makehuman_->folder(), kind, key.name));
+  add_piece(worn, {&proxy, proxy.quads, hat ? Tint::shoes : Tint::hair, !hat, {}}, key,
+            Cloth::print, proxy_folder(makehuman_->folder(), kind, key.name));
 }
 
-void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::path& folder) {
+Image Wardrobe::make_image(const Garment& garment, Cloth cloth, const fs::path& folder,
+                           Mask& covered) const {
+  const ClothFaces faces{garment.proxy, garment.quads};
+  const std::string& name = garment.proxy->name;
+  constexpr int kOwnTexels = 512;  // as the package's images
+  if (is_made_here(name)) {
+    constexpr double kSkirtFolds = 0.14;
+    constexpr double kCoatFolds = 0.05;
+    Image image = name == kSkirt
+                      ? skirt_cloth(kOwnTexels, is_outerwear(cloth) ? kCoatFolds : kSkirtFolds)
+                      : headwear_cloth(name, kOwnTexels);
+    if (name != kSkirt) {
+      thin_out(image, faces,
+               [&](const Eigen::Vector3f& point) { return hair_density(name, point); });
+    }
+    covered = covered_by(faces, image);
+    return image;
+  }
+  Image image = images::read_png(diffuse_image(folder));
+  covered = covered_by(faces, image);
+  if (cloth == Cloth::print) {
+    // Painted hair darkens so much toward its tips, and trainers are so black and white, that they
+    // would look two-colored.
+    const bool is_soft = garment.tint == Tint::hair || garment.tint == Tint::shoes;
+    reduce_to_shade(image, covered, is_soft ? 0.5 : 0.9);
+    if (garment.tint == Tint::hair) paint_strands(image, faces, covered);
+  } else if (cloth != Cloth::own) {
+    image = plain_cloth(folder, covered);
+    covered = covered_by(faces, image);
+  }
+  return image;
+}
+
+void Wardrobe::add_piece(Worn& worn, Garment garment, const Key& key, Cloth cloth,
+                         const fs::path& folder) {
   const ClothFaces faces{garment.proxy, garment.quads};
   // Garments of the same cut and fabric share one texture, whatever their tint.
   std::uint64_t corners = 0;
   for (const Quad& quad : garment.quads) corners = 31 * corners + quad.uv[0];
-  garment.texture =
-      fmt::format("{}~{}~{:x}", garment.proxy->name, static_cast<int>(cloth), corners);
+  garment.texture = fmt::format("{}~{}~{:x}~{}", garment.proxy->name, static_cast<int>(cloth),
+                                corners, fmt::join(key.accent, "-"));
   if (!textures_.contains(garment.texture)) {
-    const bool skirt = garment.proxy->name == kSkirt;
-    constexpr int kSkirtTexels = 512;  // as the package's images
-    Image image = skirt ? skirt_cloth(kSkirtTexels) : images::read_png(diffuse_image(folder));
-    Mask covered = covered_by(faces, image);
-    if (skirt) {
-    } else if (cloth == Cloth::print) {
-      // Painted hair darkens so much toward its tips, and trainers are so black and white, that
-      // they would look two-colored.
-      const bool is_soft = garment.tint == Tint::hair || garment.tint == Tint::shoes;
-      reduce_to_shade(image, covered, is_soft ? 0.5 : 0.9);
-    } else if (cloth != Cloth::own) {
-      image = plain_cloth(folder, covered);
-      covered = covered_by(faces, image);
-    }
-    paint_pattern(image, faces, cloth);
+    Mask covered;
+    Image image = make_image(garment, cloth, folder, covered);
+    paint_pattern(image, faces, cloth, key.accent);
     for (std::size_t at = 0; at < covered.size(); ++at) {
       std::uint8_t& alpha = image.rgba[4 * at + 3];
       if (!garment.alpha_tested) alpha = 255;

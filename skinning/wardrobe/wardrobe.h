@@ -41,9 +41,13 @@ class Wardrobe {
   /// The outfit's garment in a slot; without proxy and pieces if the slot is empty.
   const Worn& top(const Outfit& outfit) const;
   const Worn& bottom(const Outfit& outfit) const;
+  /// The tail of a coat below its top.
+  const Worn& tail(const Outfit& outfit) const;
   const Worn& shoes(const Outfit& outfit) const;
   const Worn& hat(const Outfit& outfit) const;
   const Worn& hair(const Outfit& outfit) const;
+  const Worn& beard(const Outfit& outfit) const;
+  const Worn& scarf(const Outfit& outfit) const;
   const Worn& eyebrows(const std::string& name) const;
   const Proxy& eyes() const { return *eyes_; }
 
@@ -60,10 +64,12 @@ class Wardrobe {
     Slot slot = Slot::top;
     Cloth cloth = Cloth::plain;
     Tint tint = Tint::none;
+    Rgb accent{255, 255, 255};
     auto operator<=>(const Key&) const = default;
   };
   static Key key_of_top(const Outfit& outfit);
   static Key key_of_bottom(const Outfit& outfit);
+  static Key key_of_tail(const Outfit& outfit);
 
   const Worn& find(const Key& key) const;
   void add(const Key& key);
@@ -71,7 +77,10 @@ class Wardrobe {
   void add_shoes(const Key& key, Worn& worn);
   void add_head(const Key& key, Worn& worn);
   const Proxy& load(const std::string& kind, const std::string& name);
-  void add_piece(Worn& worn, Garment garment, Cloth cloth, const std::filesystem::path& folder);
+  void add_piece(Worn& worn, Garment garment, const Key& key, Cloth cloth,
+                 const std::filesystem::path& folder);
+  Image make_image(const Garment& garment, Cloth cloth, const std::filesystem::path& folder,
+                   Mask& covered) const;
   void add_image(const std::string& key, const std::filesystem::path& file,
                  const std::function<void(Image&)>& mend = {});
 

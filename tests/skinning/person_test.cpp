@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "skinning/wardrobe/cloth.h"
 #include "skinning/wardrobe/garments.h"
 
 namespace throng::skinning {
@@ -219,7 +220,50 @@ TEST(Outfit, MixesWidely) {
   EXPECT_GE(outfits.size(), 80U);
   EXPECT_EQ(carried.size(), kCarryCount);
   EXPECT_GE(hats, 5);
-  EXPECT_LE(hats, 40);
+  EXPECT_LE(hats, 60);
+}
+
+// Jackets, coats, sportswear and the rest: each on some of 400 people.
+TEST(Outfit, HasManyKindsOfClothes) {
+  std::set<Cloth> tops;
+  std::set<std::string> hats;
+  int coats = 0;
+  int scarves = 0;
+  int beards = 0;
+  for (int i = 0; i < 400; ++i) {
+    const PersonSpec person = sample_person(11, i);
+    const Outfit& outfit = person.outfit;
+    tops.insert(outfit.top_cloth);
+    hats.insert(outfit.hat);
+    coats += outfit.coat > 0 ? 1 : 0;
+    scarves += outfit.scarf ? 1 : 0;
+    beards += outfit.beard.empty() ? 0 : 1;
+    EXPECT_TRUE(outfit.beard.empty() || person.male) << person.name;
+    const std::string wears = describe_outfit(outfit);
+    EXPECT_EQ(wears.starts_with("coat"), outfit.coat > 0) << wears;
+    EXPECT_FALSE(outfit.coat > 0 && outfit.bottom == kSkirt) << wears;
+  }
+  EXPECT_GE(tops.size(), 15U);
+  EXPECT_GE(hats.size(), 5U);
+  EXPECT_GT(coats, 20);
+  EXPECT_GT(scarves, 10);
+  EXPECT_GT(beards, 30);
+}
+
+// Cloth of one color that is as dark as dyes and folds get still reflects light.
+TEST(Outfit, BlackHasDetail) {
+  constexpr double kDarkestVariation = 0.86 * 0.95;
+  constexpr double kLeastY = 6 / 903.3;  // CIE L = 6
+  const auto linear = [](double srgb) { return std::pow((srgb + 0.055) / 1.055, 2.4); };
+  for (const PersonSpec& person : sample_many(12)) {
+    for (const Rgb& color : person.outfit.tints[static_cast<std::size_t>(Tint::top)]) {
+      const auto channel = [&](std::size_t i) {
+        return linear(color[i] / 255.0 * kDarkestVariation) * linear(kMinFold * kMedianShade / 255);
+      };
+      const double y = 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
+      EXPECT_GT(y, kLeastY) << int{color[0]} << " " << int{color[1]} << " " << int{color[2]};
+    }
+  }
 }
 
 TEST(Outfit, HasColorsForColoredGarments) {
