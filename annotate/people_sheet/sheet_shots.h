@@ -35,8 +35,7 @@ SheetRow drone_row(const skinning::Population& population, const SheetOptions& o
 std::vector<SheetRow> motion_rows(const skinning::Population& population,
                                   const SheetOptions& options);
 
-/// Characters of the portraits at what they do on the spot, one of them each: acts and ways of
-/// sitting.
+/// Characters of the portraits on the spot, one for each act and each posture of sitting.
 std::vector<SheetRow> act_rows(const skinning::Population& population, const SheetOptions& options);
 
 /// Characters of the portraits with each level of detail as a character of its own, in this order:

@@ -30,7 +30,7 @@ Side other_hand(const Walker& walker) {
   return main_hand(walker) == Side::left ? Side::right : Side::left;
 }
 
-std::array<Arm, 2> arms_of(const Walker& walker, const Arm& main, const Arm& other) {
+std::array<Arm, 2> pair_arms(const Walker& walker, const Arm& main, const Arm& other) {
   std::array<Arm, 2> arms;
   arms[static_cast<std::size_t>(main_hand(walker))] = main;
   arms[static_cast<std::size_t>(other_hand(walker))] = other;
@@ -60,7 +60,7 @@ Figure calm(const Walker& walker, double aside, double look, double head_down_de
 
 Figure lively(const Walker& walker, const Trunk& trunk, const Arm& main, const Arm& other,
               double knee_deg = 7) {
-  return upright(walker, trunk, arms_of(walker, main, other), 0, knee_deg * kDegree);
+  return upright(walker, trunk, pair_arms(walker, main, other), 0, knee_deg * kDegree);
 }
 
 void put_both(const Walker& walker, HandSpot spot, Figure& figure) {
@@ -242,7 +242,7 @@ Figure dance(const Walker& walker, double at) {
   const auto arm = [&](double own) {
     return Arm{38 + 24 * turn_sine(own), 82 + 16 * turn_sine(own + 0.25), 15, 18};
   };
-  return upright(walker, trunk, arms_of(walker, arm(at), arm(at + 0.5)),
+  return upright(walker, trunk, pair_arms(walker, arm(at), arm(at + 0.5)),
                  0.028 * walker.stature_m * turn_sine(at), (24 + 13 * turn_sine(2 * at)) * kDegree);
 }
 

@@ -25,7 +25,7 @@ enum class Bearing : std::uint8_t {
   look_back,  ///< over the shoulder, in panic
 };
 
-/// The clips of one way to walk or run.
+/// The clips of one bearing.
 struct BearingClips {
   std::string_view name;
   Bearing bearing;
@@ -36,10 +36,10 @@ struct BearingClips {
   double stride_interval;  ///< statures
 };
 
-/// All ways to walk and run.
+/// All bearings.
 std::span<const BearingClips> bearings();
 
-/// The way of a clip; null for other clips.
+/// The bearing of a clip; null for other clips.
 const BearingClips* find_bearing(std::string_view clip);
 
 /// Changes trunk and head for a bearing.

@@ -11,7 +11,7 @@ namespace throng::skinning {
 
 struct Piece;
 
-/// What is known of a person who rests.
+/// Properties of a person who rests.
 struct Rester {
   double age_years = 35;
   bool has_free_hands = true;  ///< both

@@ -15,14 +15,14 @@ namespace throng::skinning {
 inline constexpr double kSeatM = 0.44;
 inline constexpr double kRiseAheadM = 0.3;
 
-/// Ways of sitting: upright with hands on the thighs, leaning forward with forearms on them, with
-/// one leg over the other, leaning back, and leaning forward over a phone.
+/// Postures of sitting: upright with hands on the thighs, leaning forward with forearms on them,
+/// with one leg over the other, leaning back, and leaning forward over a phone.
 enum class Seated : std::uint8_t { upright, forward, crossed, back, phone };
 /// Their clips.
 inline constexpr std::array<std::string_view, 5> kSeatedClips = {
     "sit", "sit_forward", "sit_crossed", "sit_back", "sit_phone"};
 
-/// The way of sitting of a clip; nothing for other clips.
+/// The posture of a clip; nothing for other clips.
 std::optional<Seated> find_seat(std::string_view clip);
 
 /// Sitting, looking to the side from -1 (right) to 1 (left).

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3f;
 
 /// A point that moves with a bone, in the rest pose, and where the elbow of the hand there points.
-struct Place {
+struct Attachment {
   Bone bone;
   Vector3f point;
   Vector3f elbow_to;
@@ -25,11 +25,11 @@ const Vector3f& rest_joint(const Walker& walker, Bone bone) {
 }
 
 /// How far (m) body and clothes of some bones reach from a point along a direction, in the rest
-/// pose; `least_m` if nothing is there.
+/// pose; `min_m` if nothing is there.
 float body_reach(const Walker& walker, std::initializer_list<Bone> bones, const Vector3f& from,
-                 const Vector3f& along, float least_m) {
+                 const Vector3f& along, float min_m) {
   constexpr float kNearM = 0.05F;
-  float reach_m = least_m;
+  float reach_m = min_m;
   for (const Vertex& vertex : walker.body) {
     if (!moves_mostly_with(vertex, bones)) continue;
     const Vector3f offset = Vector3f(vertex.position.data()) - from;
@@ -40,7 +40,7 @@ float body_reach(const Walker& walker, std::initializer_list<Bone> bones, const 
 }
 
 // Shares are of stature.
-Place on_trunk(const Walker& walker, float sign, HandSpot spot) {
+Attachment on_trunk(const Walker& walker, float sign, HandSpot spot) {
   const float s = walker.stature_m;
   const Vector3f aside = sign * Vector3f::UnitY();
   const Vector3f ahead = Vector3f::UnitX();
@@ -75,7 +75,7 @@ Place on_trunk(const Walker& walker, float sign, HandSpot spot) {
           {-0.35F, 0.35F * sign, -1}};
 }
 
-Place on_head(const Walker& walker, float sign, HandSpot spot) {
+Attachment on_head(const Walker& walker, float sign, HandSpot spot) {
   const float s = walker.stature_m;
   const std::initializer_list<Bone> head = {Bone::head};
   const Vector3f joint = rest_joint(walker, Bone::head);
@@ -107,7 +107,7 @@ Place on_head(const Walker& walker, float sign, HandSpot spot) {
           {0.6F, sign, -0.15F}};
 }
 
-Place find_place(const Walker& walker, Side side, HandSpot spot) {
+Attachment find_place(const Walker& walker, Side side, HandSpot spot) {
   const float sign = side_sign(side);
   if (spot == HandSpot::knee) {
     const Bone shin = on(side, Bone::left_shin);
@@ -119,7 +119,7 @@ Place find_place(const Walker& walker, Side side, HandSpot spot) {
   return is_on_trunk ? on_trunk(walker, sign, spot) : on_head(walker, sign, spot);
 }
 
-Vector3f posed_point(const Walker& walker, const Pose& pose, const Place& place) {
+Vector3f posed_point(const Walker& walker, const Pose& pose, const Attachment& place) {
   const Vector3f joint = pose_joints(walker.joints, pose)[index_from(place.bone)];
   return joint +
          pose.rotation[index_from(place.bone)] * (place.point - rest_joint(walker, place.bone));
@@ -135,8 +135,8 @@ void put_hand(const Walker& walker, Side side, HandSpot from, HandSpot to, doubl
               Figure& figure) {
   const bool needs_legs = from == HandSpot::knee || to == HandSpot::knee;
   const Pose posed = needs_legs ? solve(walker, figure) : figure.pose;
-  const Place first = find_place(walker, side, from);
-  const Place second = find_place(walker, side, to);
+  const Attachment first = find_place(walker, side, from);
+  const Attachment second = find_place(walker, side, to);
   const auto t = static_cast<float>(share);
   const Vector3f point =
       (1 - t) * posed_point(walker, posed, first) + t * posed_point(walker, posed, second);

@@ -7,7 +7,7 @@
 
 namespace throng::skinning {
 
-/// Where a hand is put.
+/// The position of a hand.
 enum class HandSpot : std::uint8_t {
   pocket,
   waist,  ///< the side of it

@@ -196,7 +196,7 @@ Mesh Hull::level(std::size_t triangles, int image) const {
 
 Mesh Hull::level(std::size_t triangles, int image, const Extent& extent, const Fit& fit) const {
   // A fit that takes this much of the volume has folded the surface.
-  constexpr float kLeastVolume = 0.6F;
+  constexpr float kMinVolumeShare = 0.6F;
   for (std::size_t count = triangles;; count = std::min(count + count / 4, fit.max_triangles)) {
     const Simplified simple = standing_surface(count);
     Simplified fitted = simple;
@@ -204,7 +204,7 @@ Mesh Hull::level(std::size_t triangles, int image, const Extent& extent, const F
         extent.restore(fitted.standing, fitted.weights, fit.slack_m, fit.pose_count);
     const bool is_last = count >= fit.max_triangles;
     const bool is_whole = volume_m3(fitted.standing, simple.surface.indices) >=
-                          kLeastVolume * volume_m3(simple.standing, simple.surface.indices);
+                          kMinVolumeShare * volume_m3(simple.standing, simple.surface.indices);
     if (is_whole && (off_m <= fit.slack_m || is_last)) return mesh_of(fitted, image);
     if (is_last) return mesh_of(simple, image);
   }

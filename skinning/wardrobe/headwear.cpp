@@ -22,8 +22,8 @@ namespace {
 
 constexpr float kFullTurn = 2 * std::numbers::pi_v<float>;
 
-// Of the unmorphed body (m): the middle of the skull, and the height range of hair on the face and
-// the scalp.
+// Measures of the unmorphed body (m): the middle of the skull, and the height range of hair on the
+// face and the scalp.
 const Eigen::Vector3f kSkull(0.057F, 0, 0.745F);
 constexpr float kHairTop = 0.86F;
 constexpr float kHairBottom = 0.58F;
@@ -228,7 +228,7 @@ float density_of_hair(std::string_view name, const Eigen::Vector3f& point) {
 // The skin of the head, a little outward.
 Proxy make_hair(const MakeHuman& makehuman, std::string_view name) {
   constexpr float kThickM = 0.0025F;
-  constexpr float kLeast = 0.02F;
+  constexpr float kMin = 0.02F;
   const std::vector<Eigen::Vector3f>& body = makehuman.base_positions();
   std::map<std::uint32_t, Eigen::Vector3f> normals;
   std::vector<Quad> quads;
@@ -244,7 +244,7 @@ Proxy make_hair(const MakeHuman& makehuman, std::string_view name) {
     const Eigen::Vector3f inside(0.07F, 0, std::clamp(middle.z(), 0.655F, 0.76F));
     if (normal.dot((middle - inside).normalized()) < 0.05F) continue;
     const bool any = std::any_of(corner.begin(), corner.end(), [&](std::uint32_t vertex) {
-      return density_of_hair(name, body[vertex]) > kLeast;
+      return density_of_hair(name, body[vertex]) > kMin;
     });
     if (!any) continue;
     quads.push_back(quad);

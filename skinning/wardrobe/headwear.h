@@ -1,4 +1,4 @@
-// What is worn on the head and is made from the base mesh's head, because the package has none:
+// Headwear and hair that are made from the base mesh's head, because the package has none:
 // caps, knitted hats, headscarves, scarves around the neck, beards and cropped hair.
 #pragma once
 

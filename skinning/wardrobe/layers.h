@@ -1,4 +1,4 @@
-// Worn things as surfaces, and how one lies over another.
+// Clothes as surfaces, and how one lies over another.
 #pragma once
 
 #include <Eigen/Core>
@@ -82,9 +82,9 @@ void cut_below(std::vector<Surface>& surfaces, float height_m);
 /// trousers nor hair through a hat.
 void hide_above(std::vector<Surface>& surfaces, float height_m);
 
-/// Lets a bottom lie under a top: a waistband must not show through a shirt worn over it. What the
-/// shirt covers is rendered further in, and what it covers well not at all. Hems are uneven, so
-/// that depends on the direction.
+/// Lets a bottom lie under a top: a waistband must not show through a shirt worn over it. Parts
+/// that the shirt covers are rendered further in, and those that it covers well not at all. Hems
+/// are uneven, so that depends on the direction.
 void tuck_under(std::vector<Surface>& bottoms, const Rim& hem, const DressedPerson& dressed);
 
 /// Lets hair end at the rim of a hat without a brim.

@@ -12,7 +12,7 @@ namespace throng::skinning {
 
 namespace {
 
-// Of the unmorphed body (m).
+// Measures of the unmorphed body (m).
 constexpr double kTrunkHalfWidth = 0.19;
 constexpr double kFrontFrom = 0.02;
 

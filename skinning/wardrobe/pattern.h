@@ -7,7 +7,7 @@
 
 namespace throng::skinning {
 
-/// What a pattern does to plain cloth at a point.
+/// The change of plain cloth at a point by a pattern.
 struct PatternPaint {
   double light = 1;   ///< factor on the sRGB value
   double accent = 0;  ///< share of the second color

@@ -138,7 +138,7 @@ TEST(Acts, FollowTheSetting) {
   EXPECT_EQ(company["act_clap"], 0);
   EXPECT_GT(fear["act_cower"], 0.08);
   EXPECT_EQ(alone["act_cower"], 0);
-  // Nobody does only one thing, and many just stand.
+  // Everybody varies, and many just stand.
   for (auto& in_setting : {&alone, &company, &audience}) {
     EXPECT_GT(in_setting->size(), 10U);
     double idle = 0;
@@ -196,10 +196,10 @@ TEST(Sitting, EveryWayKeepsHipsOnTheSeatAndSolesOnTheFloor) {
   EXPECT_FALSE(find_seat("idle").has_value());
 }
 
-TEST(Sitting, PeopleSitInSeveralWaysAndPhonesAreNamed) {
+TEST(Sitting, PeopleSitInSeveralPosturesAndPhonesAreNamed) {
   const Population people = make_population({made_up_walker()});
   const SpectatorPoses poses(people);
-  std::set<std::string> ways;
+  std::set<std::string> found;
   int phones = 0;
   for (int person = 0; person < 100; ++person) {
     const double phase = std::fmod(0.618 * person, 1);
@@ -208,14 +208,14 @@ TEST(Sitting, PeopleSitInSeveralWaysAndPhonesAreNamed) {
     for (const std::string_view name : kSeatedClips) {
       const Clip* clip = ClipSet(people).find(name);
       if (palette < clip->first || palette >= clip->first + clip->frames) continue;
-      ways.insert(std::string(name));
+      found.insert(std::string(name));
       const Actions actions = SpectatorPoses::actions(posture, phase);
       EXPECT_TRUE(actions.has(Action::sit));
       EXPECT_EQ(actions.has(Action::use_phone), name == "sit_phone");
       phones += name == "sit_phone" ? 1 : 0;
     }
   }
-  EXPECT_EQ(ways.size(), kSeatedClips.size());
+  EXPECT_EQ(found.size(), kSeatedClips.size());
   EXPECT_GT(phones, 4);
 }
 

@@ -253,7 +253,7 @@ TEST(Outfit, HasManyKindsOfClothes) {
 // Cloth of one color that is as dark as dyes and folds get still reflects light.
 TEST(Outfit, BlackHasDetail) {
   constexpr double kDarkestVariation = 0.86 * 0.95;
-  constexpr double kLeastY = 6 / 903.3;  // CIE L = 6
+  constexpr double kMinY = 6 / 903.3;  // CIE L = 6
   const auto linear = [](double srgb) { return std::pow((srgb + 0.055) / 1.055, 2.4); };
   for (const PersonSpec& person : sample_many(12)) {
     for (const Rgb& color : person.outfit.tints[static_cast<std::size_t>(Tint::top)]) {
@@ -261,7 +261,7 @@ TEST(Outfit, BlackHasDetail) {
         return linear(color[i] / 255.0 * kDarkestVariation) * linear(kMinFold * kMedianShade / 255);
       };
       const double y = 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
-      EXPECT_GT(y, kLeastY) << int{color[0]} << " " << int{color[1]} << " " << int{color[2]};
+      EXPECT_GT(y, kMinY) << int{color[0]} << " " << int{color[1]} << " " << int{color[2]};
     }
   }
 }

@@ -207,7 +207,7 @@ TEST(Plan, StandsWalksRunsAndPanics) {
   EXPECT_TRUE(clip_at(plan, 60).starts_with("walk")) << clip_at(plan, 60);
   EXPECT_EQ(clip_at(plan, 120), "run");
   EXPECT_FALSE(clip_at(plan, 240).starts_with("panic"));
-  // Everybody flees in one way, and the ways differ.
+  // Everybody flees by clips of one kind, and kinds differ.
   std::map<std::string, int> flights;
   for (std::uint64_t key = 0; key < 200; ++key) ++flights[clip_at(plan_person(key, moments), 180)];
   for (const char* name : {"panic", "panic_cover", "panic_look_back", "run"}) {
