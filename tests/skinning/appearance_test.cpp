@@ -220,7 +220,7 @@ TEST(Leading, IsForThoseForWhomTheCrowdMakesRoom) {
   population.characters[11].carries = Carry::walking_stick;
   Styling styling;
   const auto carries = [&](std::uint32_t agent, Spot spot) {
-    return population.characters[sample_appearance(population, 9, agent, styling, place).character]
+    return population.characters[sample_appearance(population, 9, agent, styling, spot).character]
         .carries;
   };
   int leading = 0;
