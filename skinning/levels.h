@@ -20,7 +20,7 @@ struct DetailLevel {
 /// triangles where they need them to keep their extent (extent_slack_m()). The last level is for
 /// people in the distance, of whom thousands fill a stand, and for shadows.
 inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
-    {8000, 160},
+    {9000, 160},
     {3000, 110},
     {800, 80},
     {400, 56},

@@ -139,6 +139,20 @@ std::vector<Key> fall_on_the_back(const Walker& walker) {
   return {{0.38, squatting}, {0.62, sitting}, {1, lying}};
 }
 
+Pose body_in_fall(const Walker& walker, bool forwards, double share) {
+  Key before = {0, solve(walker, ready(walker))};
+  before.pose.shift.z() = 0;
+  for (const Key& key : forwards ? fall_on_the_face(walker) : fall_on_the_back(walker)) {
+    if (share <= key.share) {
+      // Quicker and quicker down to the knees, then to the ground.
+      const double t = (share - before.share) / (key.share - before.share);
+      return mix(before.pose, key.pose, t);
+    }
+    before = key;
+  }
+  return before.pose;
+}
+
 }  // namespace
 
 Figure upright(const Walker& walker, const Trunk& trunk, const std::array<Arm, 2>& arms,
@@ -248,17 +262,15 @@ Figure stop(const Walker& walker, const Stride& stride, Side side, double share)
 }
 
 Pose fall(const Walker& walker, bool forwards, double share) {
-  Key before = {0, solve(walker, ready(walker))};
-  before.pose.shift.z() = 0;
-  for (const Key& key : forwards ? fall_on_the_face(walker) : fall_on_the_back(walker)) {
-    if (share <= key.share) {
-      // Quicker and quicker down to the knees, then to the ground.
-      const double t = (share - before.share) / (key.share - before.share);
-      return mix(before.pose, key.pose, t);
-    }
-    before = key;
+  Pose pose = body_in_fall(walker, forwards, share);
+  if (walker.manner.carries == Carry::walking_stick) {
+    // It falls to the right, and is level before the hand is down.
+    constexpr double kLevelShare = 0.25;
+    Pose level = pose;
+    level.of(Bone::right_hand) = turn_x(-92 * kDegree);
+    pose = mix(pose, level, geometry::smoothstep(share / kLevelShare));
   }
-  return before.pose;
+  return pose;
 }
 
 }  // namespace throng::skinning

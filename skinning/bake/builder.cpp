@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 30;
+constexpr int kBuilderVersion = 35;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -248,10 +248,8 @@ class Bakery {
         const std::size_t carried = item && !is_led(carries) ? item->indices.size() / 3 : 0;
         const std::size_t triangles = kDetailLevels[level].triangles - carried;
         // Coarse surfaces that are fitted on very different poses lose the shape of each.
-        constexpr std::size_t kFirstWithoutFolds = 5;
-        const std::size_t pose_count = level < kFirstWithoutFolds ? pose_counts[2]
-                                       : level < kDistantLevel    ? pose_counts[1]
-                                                                  : pose_counts[0];
+        constexpr std::array<std::size_t, kDrawnLevels> kKinds = {2, 2, 2, 2, 1, 1, 0};
+        const std::size_t pose_count = pose_counts.at(kKinds.at(level));
         asset.levels.push_back(hull.level(
             triangles, image, extent,
             {bake_slack_m(level, dressed.stature_m), max_triangles(level) - carried, pose_count}));

@@ -135,16 +135,16 @@ Image plain_cloth(const fs::path& folder, const Mask& covered) {
 
 void paint_pattern(Image& image, const ClothFaces& faces, Cloth cloth, const Rgb& accent) {
   if (!has_pattern(cloth)) return;
-  // Retroreflective gray on the yellow of vests, which is the tint.
-  constexpr std::array<double, 3> kGlint = {0.8, 0.77, 1.24};
+  constexpr double kGlint = 0.66;  // retroreflective bands beside bright cloth, by day
+  // The texture of a tinted part has only light and shade.
+  const double second = (0.3 * accent[0] + 0.59 * accent[1] + 0.11 * accent[2]) / 255;
   const Image unpainted = image;
   for_each_texel(faces, image, [&](int x, int y, const Eigen::Vector3f& point) {
     const PatternPaint paint = paint_at(cloth, point);
     const std::uint8_t* from = unpainted.pixel(x, y);
     std::uint8_t* to = image.pixel(x, y);
+    const double color = std::lerp(std::lerp(1.0, second, paint.accent), kGlint, paint.glint);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      const double color = std::lerp(std::lerp(1.0, accent[channel] / 255.0, paint.accent),
-                                     kGlint[channel], paint.glint);
       to[channel] = static_cast<std::uint8_t>(
           std::lround(std::clamp(paint.light * color * from[channel], 0.0, 255.0)));
     }

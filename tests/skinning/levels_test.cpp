@@ -34,7 +34,7 @@ class Viewer {
   Viewer(const Population& people, const Character& character, const Palette& palette,
          const View& view, double height_px)
       : people_(&people),
-        palette_(&palette),
+        palette_(palette),
         px_per_m_(static_cast<float>(height_px) / character.stature_m),
         size_(static_cast<int>(std::ceil(2.6 * height_px)) + 4) {
     const auto turn = Eigen::AngleAxisd(view.yaw_rad, Eigen::Vector3d::UnitZ());
@@ -50,7 +50,7 @@ class Viewer {
     Silhouette image{size_, Mask(static_cast<std::size_t>(size_) * size_, 0)};
     std::vector<Eigen::Vector2f> points;
     for (const Vertex& vertex : mesh.vertices) {
-      const Eigen::Vector3f p = skin(vertex, *palette_, *palette_, 0) - middle_;
+      const Eigen::Vector3f p = skin(vertex, palette_, palette_, 0) - middle_;
       const Eigen::Vector2f flat(p.dot(right_), p.dot(down_));
       points.emplace_back((px_per_m_ * flat).array() + 0.5F * static_cast<float>(size_));
     }
@@ -87,7 +87,7 @@ class Viewer {
   }
 
   const Population* people_;
-  const Palette* palette_;
+  Palette palette_;
   float px_per_m_;
   int size_;
   Eigen::Vector3f right_;
