@@ -145,6 +145,7 @@ void put_hand(const Walker& walker, Side side, HandSpot from, HandSpot to, doubl
 }
 
 bool is_hand_busy(const Walker& walker, Side side) {
+  if (walker.manner.carries == Carry::walking_stick && side == Side::right) return true;
   const std::vector<Grip> grips = find_grips(walker.manner.carries, walker.joints);
   return std::any_of(grips.begin(), grips.end(),
                      [&](const Grip& grip) { return grip.hand == on(side, Bone::left_hand); });

@@ -30,7 +30,7 @@ void put_hand(const Walker& walker, Side side, HandSpot spot, Figure& figure);
 void put_hand(const Walker& walker, Side side, HandSpot from, HandSpot to, double share,
               Figure& figure);
 
-/// Whether a hand holds an item where it is.
+/// Whether a hand holds an item where it is, or leans on a stick.
 bool is_hand_busy(const Walker& walker, Side side);
 
 }  // namespace throng::skinning

@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 35;
+constexpr int kBuilderVersion = 36;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
