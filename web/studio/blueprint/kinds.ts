@@ -26,7 +26,13 @@ export interface Kind {
   members: JsonObject; ///< of a new one, beside its geometry
 }
 
-const kDoing: FieldSpec = { key: "doing", label: "Doing", type: "choice", choices: ["stroll", "wait", "cross", "leave", "watch"], isRequired: true };
+const kDoing: FieldSpec = {
+  key: "doing",
+  label: "Doing",
+  type: "choice",
+  choices: ["stroll", "wait", "cross", "leave", "watch"],
+  isRequired: true,
+};
 const number = (key: string, label: string, unit = "", usual = ""): FieldSpec => ({ key, label, type: "number", unit, usual });
 const kId: FieldSpec = { key: "id", label: "Id", type: "text", isRequired: true };
 const kFacades = [
