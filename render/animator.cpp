@@ -93,7 +93,8 @@ class Watcher {
 
   skinning::Setting setting(std::size_t agent, std::size_t at, bool panicked) const {
     if (panicked) return skinning::Setting::fear;
-    const std::size_t state = trace_.state[at];
+    // Traces of earlier versions may have no states.
+    const std::size_t state = at < trace_.state.size() ? trace_.state[at] : watches_.size();
     if (state < watches_.size() && watches_[state] != 0) return skinning::Setting::audience;
     return has_company_[agent] != 0 ? skinning::Setting::company : skinning::Setting::alone;
   }
