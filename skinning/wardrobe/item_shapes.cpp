@@ -184,6 +184,41 @@ void add_umbrella(Shape& shape, const Site& site) {
   }
 }
 
+std::optional<Surface> shape_item(Carry carry, const DressedPerson& person, int level) {
+  constexpr float kUsualStatureM = 1.7F;
+  const Site site{&person, person.stature_m / kUsualStatureM, shape_of_level(level)};
+  Shape shape;
+  switch (carry) {
+    case Carry::nothing:
+      return std::nullopt;
+    case Carry::backpack:
+      add_backpack(shape, site);
+      break;
+    case Carry::shoulder_bag:
+      add_shoulder_bag(shape, site);
+      break;
+    case Carry::handbag:
+      add_handbag(shape, site);
+      break;
+    case Carry::umbrella:
+      add_umbrella(shape, site);
+      break;
+    case Carry::walking_stick:
+      add_walking_stick(shape, site);
+      break;
+    case Carry::suitcase:
+      add_suitcase(shape, site);
+      break;
+    case Carry::pram:
+      add_pram(shape, site);
+      break;
+    case Carry::bicycle:
+      add_bicycle(shape, site);
+      break;
+  }
+  return shape.take();
+}
+
 }  // namespace
 
 }  // namespace items
@@ -233,39 +268,7 @@ Image item_image(int size) {
 }
 
 std::optional<Surface> make_item(Carry carry, const DressedPerson& person, int level) {
-  constexpr float kUsualStatureM = 1.7F;
-  using namespace items;
-  const Site site{&person, person.stature_m / kUsualStatureM, shape_of_level(level)};
-  Shape shape;
-  switch (carry) {
-    case Carry::nothing:
-      return std::nullopt;
-    case Carry::backpack:
-      add_backpack(shape, site);
-      break;
-    case Carry::shoulder_bag:
-      add_shoulder_bag(shape, site);
-      break;
-    case Carry::handbag:
-      add_handbag(shape, site);
-      break;
-    case Carry::umbrella:
-      add_umbrella(shape, site);
-      break;
-    case Carry::walking_stick:
-      add_walking_stick(shape, site);
-      break;
-    case Carry::suitcase:
-      add_suitcase(shape, site);
-      break;
-    case Carry::pram:
-      add_pram(shape, site);
-      break;
-    case Carry::bicycle:
-      add_bicycle(shape, site);
-      break;
-  }
-  return shape.take();
+  return items::shape_item(carry, person, level);
 }
 
 }  // namespace throng::skinning
