@@ -39,7 +39,7 @@ void gesture(const Walker& walker, Side side, double phase, Pose& pose) {
   const auto up = static_cast<float>(-0.17 + 0.045 * bearing_wave(phase + 0.2));
   const float s = walker.stature_m;
   const Joints joints = pose_joints(walker.joints, pose);
-  const Eigen::Vector3f shoulder = joints[index_from(on(side, Bone::left_upper_arm))];
+  const Eigen::Vector3f& shoulder = joints[index_from(on(side, Bone::left_upper_arm))];
   hold(walker, side,
        shoulder +
            pose.of(Bone::chest) * Eigen::Vector3f(ahead * s, 0.02F * s * side_sign(side), up * s),

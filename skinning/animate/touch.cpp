@@ -78,7 +78,7 @@ Attachment on_trunk(const Walker& walker, float sign, HandSpot spot) {
 Attachment on_head(const Walker& walker, float sign, HandSpot spot) {
   const float s = walker.stature_m;
   const std::initializer_list<Bone> head = {Bone::head};
-  const Vector3f joint = rest_joint(walker, Bone::head);
+  const Vector3f& joint = rest_joint(walker, Bone::head);
   const Vector3f middle = joint + Vector3f(0, 0, 0.045F * s);
   const float face_m = body_reach(walker, head, middle, Vector3f::UnitX(), 0.055F * s);
   if (spot == HandSpot::ear) {
