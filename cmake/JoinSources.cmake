@@ -3,7 +3,7 @@
 # checkout only; here they are named relative to the source folder. Files with SKIP_UNITY_BUILD_INCLUSION or options of
 # their own stay apart.
 option(THRONG_JOIN_SOURCES "Compile several files of a target as one" OFF)
-set(THRONG_JOINED_SOURCES 16 CACHE STRING "How many files of a module are compiled as one at most")
+set(THRONG_JOINED_SOURCES 32 CACHE STRING "How many files of a module are compiled as one at most; one number for all presets, so that names that clash do so in each")
 
 # throng_join_sources(TARGET MAX): at the end of this folder's CMakeLists.txt, when the files' properties are known; at most MAX
 # files as one.

@@ -15,7 +15,7 @@ using Eigen::Vector2i;
 
 namespace {
 
-constexpr double kBucketM = 8;
+constexpr double kGroundBucketM = 8;
 constexpr double kApartM = 0.6;         // from other props
 constexpr double kOffPeopleM = 1;       // from the inside of the scenario
 constexpr double kBehindExitsM = 15;    // beyond the border of the scenario's inside
@@ -69,8 +69,8 @@ std::pair<Vector2i, Vector2i> FreeGround::buckets(std::span<const Vector2d> corn
   // Nothing is scattered beyond the ground.
   const Vector2d low = box.min.cwiseMax(scenario_.ground.min).cwiseMin(scenario_.ground.max);
   const Vector2d high = box.max.cwiseMin(scenario_.ground.max).cwiseMax(scenario_.ground.min);
-  return {(low / kBucketM).array().floor().cast<int>(),
-          (high / kBucketM).array().floor().cast<int>()};
+  return {(low / kGroundBucketM).array().floor().cast<int>(),
+          (high / kGroundBucketM).array().floor().cast<int>()};
 }
 
 void FreeGround::add(std::span<const Vector2d> corners) {
@@ -105,7 +105,7 @@ bool FreeGround::is_free(const Prop& prop) const {
 
 std::string_view FreeGround::material_at(const Vector2d& point) const {
   if (!scenario_.ground.contains(point)) return "";
-  const Vector2i bucket = (point / kBucketM).array().floor().cast<int>();
+  const Vector2i bucket = (point / kGroundBucketM).array().floor().cast<int>();
   const auto found = areas_in_.find(key(bucket.x(), bucket.y()));
   if (found != areas_in_.end()) {
     for (auto area = found->second.rbegin(); area != found->second.rend(); ++area) {

@@ -21,7 +21,7 @@ constexpr std::uint64_t kSitting = std::uint64_t{1} << 44;  // apart from other 
 constexpr std::uint64_t kSeatsOfProp = 64;                  // more than any kind has
 constexpr double kTorsoM = 0.15;                            // around the pelvis
 constexpr double kKneesM = 0.45;                            // from there ahead
-constexpr double kBucketM = 16;
+constexpr double kSitterBucketM = 16;
 
 /// Buildings and props, which nobody may sit in, by place.
 class Obstacles {
@@ -56,13 +56,15 @@ class Obstacles {
 
   static std::int64_t key(std::int64_t x, std::int64_t y) { return (x << 32) + y; }
   static std::int64_t bucket(const Vector2d& point) {
-    return key(static_cast<std::int64_t>(std::floor(point.x() / kBucketM)),
-               static_cast<std::int64_t>(std::floor(point.y() / kBucketM)));
+    return key(static_cast<std::int64_t>(std::floor(point.x() / kSitterBucketM)),
+               static_cast<std::int64_t>(std::floor(point.y() / kSitterBucketM)));
   }
 
   void add(std::vector<Vector2d> corners, std::size_t prop) {
     const auto [low, high] = geometry::bounding_box(corners);
-    const auto at = [](double m) { return static_cast<std::int64_t>(std::floor(m / kBucketM)); };
+    const auto at = [](double m) {
+      return static_cast<std::int64_t>(std::floor(m / kSitterBucketM));
+    };
     for (std::int64_t x = at(low.x() - kTorsoM); x <= at(high.x() + kTorsoM); ++x) {
       for (std::int64_t y = at(low.y() - kTorsoM); y <= at(high.y() + kTorsoM); ++y) {
         buckets_[key(x, y)].push_back(outlines_.size());
