@@ -19,7 +19,7 @@ from .frame import Frame
 from .real_sets import RealImage, RealSet
 
 FloatArray = NDArray[np.float64]
-Boxes = FloatArray | None
+Item = tuple[Callable[[], NDArray[np.uint8]], FloatArray | None, int, FloatArray | None]
 
 _LOG = logging.getLogger("throng")
 _SAMPLED_COLUMNS = 200
@@ -43,6 +43,8 @@ class Measures:
     """Median of the boxes' widths by their heights."""
     overlap: FloatArray
     """Mean share of a box that one other box in front of it covers."""
+    hidden: FloatArray
+    """Mean share of people that others hide, in VisDrone's levels, where a set says it."""
     brightness: FloatArray
     """Mean luma, 0 to 1."""
     contrast: FloatArray
@@ -95,7 +97,7 @@ def _light(pixels: NDArray[np.uint8]) -> dict[str, float]:
     return {"brightness": luma.mean(), "contrast": luma.std(), "saturation": saturation.mean()}
 
 
-def _people(boxes: Boxes, width: int, height: int, hfov_deg: float) -> dict[str, float]:
+def _people(boxes: FloatArray | None, width: int, height: int, hfov_deg: float) -> dict[str, float]:
     names = ("box_height", "box_spread", "aspect", "overlap", "pitch_deg", "camera_height_m")
     row = dict.fromkeys(names, math.nan)
     if boxes is None or not len(boxes):
@@ -112,14 +114,12 @@ def _people(boxes: Boxes, width: int, height: int, hfov_deg: float) -> dict[str,
     return row
 
 
-def _measured(
-    items: Iterable[tuple[Callable[[], NDArray[np.uint8]], Boxes, int]], what: str, hfov_deg: float
-) -> Measures:
-    """Of each item: its pixels, its boxes and the number of people. Images that cannot be decoded are left out."""
+def _measured(items: Iterable[Item], what: str, hfov_deg: float) -> Measures:
+    """Of each item: its pixels, boxes, number of people and their hidden shares. Images that cannot be decoded are left out."""
     rows: list[dict[str, float]] = []
     heights: list[FloatArray] = []
     faults: list[DatasetError] = []
-    for read, boxes, count in items:
+    for read, boxes, count, hidden in items:
         try:
             pixels = read()
         except DatasetError as error:
@@ -127,6 +127,7 @@ def _measured(
             continue
         height, width = pixels.shape[:2]
         row = {"width": float(width), "height": float(height), "count": float(count)}
+        row["hidden"] = float(hidden.mean()) if hidden is not None and len(hidden) else math.nan
         rows.append({**row, **_light(pixels), **_people(boxes, width, height, hfov_deg)})
         if boxes is not None:
             heights.append((boxes[:, 3] - boxes[:, 1]) / width)
@@ -150,7 +151,7 @@ def chosen_indices(count: int, limit: int, seed: int) -> list[int]:
 def measure_real(images: RealSet, *, hfov_deg: float, limit: int, seed: int) -> Measures:
     """Figures of at most limit images of a real set, sampled by the seed."""
     chosen: list[RealImage] = [images[i] for i in chosen_indices(len(images), limit, seed)]
-    items = ((image.image, image.boxes, image.count) for image in chosen)
+    items = ((image.image, image.boxes, image.count, image.hidden) for image in chosen)
     return _measured(items, str(images.folder), hfov_deg)
 
 
@@ -163,12 +164,14 @@ def measure_dataset(
     smaller or less visible has no label.
     """
 
-    def item(frame: Frame) -> tuple[Callable[[], NDArray[np.uint8]], Boxes, int]:
+    def item(frame: Frame) -> Item:
         people = frame.people
         keep = (people.visibility >= min_visibility) & (people.boxes_amodal[:, 3] >= min_height * frame.width)
         boxes = np.array((people.boxes_amodal if whole else people.boxes)[keep], dtype=np.float64)
         boxes[:, 2:] += boxes[:, :2]
-        return frame.image, boxes, len(boxes)
+        visible = people.visibility[keep]
+        hidden = np.where(visible > 0.995, 0.0, np.where(visible >= 0.5, 0.25, 0.75))
+        return frame.image, boxes, len(boxes), hidden
 
     return _measured((item(frame) for frame in dataset), dataset.name, hfov_deg)
 

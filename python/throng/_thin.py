@@ -18,6 +18,7 @@ def features(measures: Measures, heads_only: bool) -> FloatArray:
     if not heads_only:
         with np.errstate(invalid="ignore", divide="ignore"):
             columns += [np.log(measures.box_height), measures.box_spread, np.log(measures.aspect), measures.overlap]
+            columns.append(measures.hidden)
     return np.stack(columns, axis=1)
 
 

@@ -37,7 +37,8 @@ _WORDS = {
     "box_height": "box height / image width",
     "box_spread": "box heights: ln(q90 / q10)",
     "aspect": "box width / height",
-    "overlap": "overlap",
+    "overlap": "overlap of boxes",
+    "hidden": "hidden share (labels)",
     "brightness": "brightness",
     "contrast": "contrast",
     "saturation": "saturation",
@@ -98,7 +99,7 @@ def describe(real: Measures, others: dict[str, Measures] | None = None) -> str:
 def plot(path: str, real: Measures, others: dict[str, Measures]) -> None:
     """Draws the distributions, each with its share of images up to a value. Needs matplotlib."""
     pyplot = require("matplotlib.pyplot", "--plot")
-    figure, axes = pyplot.subplots(2, 5, figsize=(15, 6), layout="constrained")
+    figure, axes = pyplot.subplots(3, 4, figsize=(13, 9), layout="constrained")
     for axis, (name, words) in zip(axes.flat, _WORDS.items()):
         for what, measures in {"real": real, **others}.items():
             values = np.sort(measures.known(name))
