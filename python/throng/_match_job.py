@@ -23,7 +23,7 @@ _QUANTILES = 16
 _HEIGHTS_M, _PITCHES_DEG, _EV = (2.0, 500.0), (-90.0, -3.0), (-3.0, 3.0)
 _MAX_AGENTS = 2000
 # Below it an image is one of the night: throng's have 0.21 to 0.30 then and 0.5 to 0.6 by day (deciles of 48 images each, ev 0).
-NIGHT_BRIGHTNESS = 0.34
+NIGHT_BRIGHTNESS = 0.31
 _NIGHT_HOURS = ("20:30", "21:30", "22:30", "23:30")
 _DAY_HOURS = ("07:00", "08:30", "10:00", "11:30", "13:00", "14:30", "16:00", "17:30")
 # Medians of the same images, and the steps of one EV at such tones.
@@ -119,7 +119,7 @@ def _set_views(job: Job, groups: list[tuple[FloatArray, FloatArray]], size: tupl
         drone = copy.deepcopy(first)
         drone.pop("start", None)
         drone["id"] = f"view{i}"
-        # What is far is seen at small angles: the person on the axis may stand where it meets the ground.
+        # Far people are seen at small angles: the person on the axis may stand where it meets the ground.
         steep = max(_STEEPEST_AIM, math.tan(math.radians(-float(np.median(pitch)))))
         farthest = float(np.clip(np.quantile(height, 0.9) / steep, 100, 300))
         drone["aim"] = {**drone.get("aim", {}), "max_distance_m": round(farthest)}
@@ -167,7 +167,7 @@ def _set_light(job: Job, real: Measures) -> None:
     environment["time_of_day"] = {"choice": hours}
     brighter = _exposures(real.brightness)
     low, middle, high = np.quantile(brighter, (0.1, 0.5, 0.9))
-    # What is seen makes images differ as well: half of the spread is that of the exposure.
+    # Scenes differ in brightness themselves: half of the spread is that of the exposure.
     reach = float(np.clip((high - low) / 4, 0.1, 1))
     for drone in _drones(job):
         values = np.linspace(middle - reach, middle + reach, _QUANTILES)

@@ -1,4 +1,4 @@
-"""What images of people have in common: sizes of boxes, counts, overlap, light, and the view that the boxes tell of."""
+"""Figures of images of people: sizes of boxes, counts, overlap, light, and the view that the boxes tell of."""
 
 from __future__ import annotations
 

@@ -3,6 +3,7 @@ import contextlib
 import io
 import json
 import math
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -215,6 +216,55 @@ class RealSets(unittest.TestCase):
             match.correct_job(job, some(0.1, 30, 0.5), some(0.1, 30, 0.5))["randomize"]["crowd.agents"],
             job["randomize"]["crowd.agents"],
         )
+
+
+@unittest.skipUnless(os.environ.get("THRONG_LONG"), "takes minutes: with THRONG_LONG")
+class Made(unittest.TestCase):
+    """Datasets of throng, exported, stand for photographs; images of the job that matches them have their figures."""
+
+    def setUp(self):
+        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.preset = json.loads((common.ROOT / "scenarios/presets/detection.job.json").read_text())
+        self.preset["runs"] = 6
+        self.preset["capture"] = {"rate_hz": 0.1, "from_s": 10, "to_s": 30}
+        self.preset["outputs"]["formats"] = ["visdrone-det", "mot"]
+        self.preset["outputs"]["splits"] = {"train": 1}
+        self.preset["drones"][0]["camera"].update(width=640, height=360)
+
+    def made(self, job, name):
+        file = self.root / f"{name}.job.json"
+        file.write_text(json.dumps(job))
+        subprocess.run([common.THRONG, "run", file, "-o", self.root / name], check=True, capture_output=True)
+        return self.root / name / "dataset"
+
+    def assert_matched(self, kind, layout, height, pitch, hours):
+        source = json.loads(json.dumps(self.preset))
+        source["drones"][0]["camera"].update(hfov_deg=HFOV, pitch_deg={"uniform": [pitch - 3, pitch + 3]})
+        source["environment"]["time_of_day"] = {"uniform": hours}
+        source["randomize"]["drones.0.aim.height_m"] = {"uniform": [0.9 * height, 1.1 * height]}
+        source["randomize"]["crowd.agents"] = {"uniform": [150, 300]}
+        folder = self.made(source, f"source_{kind}") / "formats" / layout
+        output = self.root / f"{kind}.job.json"
+        code, _, errors = call(kind, folder, "-o", output, "--views", 2)
+        self.assertEqual((code, errors), (0, ""))
+        job = {**json.loads(output.read_text()), "runs": 6, "seed": 99}
+        real = match.measure_real(throng.open_real_set(kind, folder), hfov_deg=HFOV, limit=100, seed=0)
+        figures = {}
+        for name, each in (("preset", self.preset), ("matched", job)):
+            data = throng.Dataset(self.made(each, f"{kind}_{name}"))
+            smallest = float(np.quantile(real.heights, 0.01))
+            figures[name] = match.measure_dataset(data, hfov_deg=HFOV, whole=kind == "mot", min_height=smallest)
+        for column in ("box_height", "brightness", "pitch_deg", "camera_height_m"):
+            far, near = (match.distance(real.known(column), figures[name].known(column)) for name in figures)
+            self.assertLess(near, 0.75 * far, (kind, column))
+        medians = [float(np.median(each.heights)) for each in (real, figures["matched"])]
+        self.assertLess(abs(math.log(medians[1] / medians[0])), 0.25)
+
+    def test_low_by_day(self):
+        self.assert_matched("mot", "mot/train", 4, -12, ["10:00", "15:00"])
+
+    def test_from_above_by_night(self):
+        self.assert_matched("visdrone", "visdrone-det", 40, -80, ["21:00", "23:30"])
 
 
 class Thin(unittest.TestCase):
