@@ -21,7 +21,8 @@ Job = dict[str, Any]
 _QUANTILES = 16
 # Ranges of the fields (docs/reference/job.md).
 _HEIGHTS_M, _PITCHES_DEG, _EV = (2.0, 500.0), (-90.0, -3.0), (-3.0, 3.0)
-_MAX_AGENTS = 2000
+# Of the presets' scenarios the smallest crowd has 800 people, those of generated streets about as many.
+_MAX_AGENTS = 750
 # Below it an image is one of the night: throng's have 0.21 to 0.30 then and 0.5 to 0.6 by day (deciles of 48 images each, ev 0).
 NIGHT_BRIGHTNESS = 0.31
 _NIGHT_HOURS = ("20:30", "21:30", "22:30", "23:30")
@@ -151,7 +152,7 @@ def _set_people(job: Job, real: Measures, hfov_deg: float, notes: list[str]) -> 
         share[~known] = np.median(share[known])
     agents = _quantiles(count / share)
     if agents[-1] > _MAX_AGENTS:
-        notes.append(f"people: up to {agents[-1]:.0f} in a scenario would be needed, cut to {_MAX_AGENTS}")
+        notes.append(f"people: up to {agents[-1]:.0f} in a scenario would be needed, cut to {_MAX_AGENTS}: not all have more")
     job.setdefault("randomize", {})["crowd.agents"] = _choice(agents, (1, _MAX_AGENTS), 0)
     for entry in job["scenario"] if isinstance(job.get("scenario"), list) else []:
         if isinstance(entry, dict):
@@ -184,7 +185,7 @@ def _set_filters(job: Job, real: Measures, width: int, notes: list[str]) -> None
     if not len(real.heights):
         notes.append("sizes of people: the set has no boxes of people; outputs.filters is kept")
         return
-    smallest = float(np.quantile(real.heights, 0.01)) * width
+    smallest = real.smallest * width
     outputs = job.setdefault("outputs", {})
     outputs["filters"] = {**outputs.get("filters", {}), "min_height_px": round(max(1.0, smallest), 1)}
 

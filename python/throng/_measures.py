@@ -55,6 +55,8 @@ class Measures:
     camera_height_m: FloatArray
     heights: FloatArray
     """Of every box of all images, by the width of its image."""
+    whole_heights: FloatArray
+    """The same of boxes that nothing covers and no border cuts, as far as a set says it."""
 
     def __len__(self) -> int:
         return len(self.count)
@@ -65,13 +67,19 @@ class Measures:
         finite: FloatArray = values[np.isfinite(values)]
         return finite
 
+    @property
+    def smallest(self) -> float:
+        """Height from which on people have labels, by the width of the image: of the hundredth part of whole people; 0 without boxes."""
+        heights = self.whole_heights if len(self.whole_heights) else self.heights
+        return float(np.quantile(heights, 0.01)) if len(heights) else 0.0
+
     def rows(self, indices: Sequence[int]) -> Measures:
         """Of these images alone; without the boxes' heights, which are not kept by image."""
         columns = {name: getattr(self, name)[list(indices)] for name in COLUMNS}
-        return Measures(**columns, heights=np.empty(0))
+        return Measures(**columns, heights=np.empty(0), whole_heights=np.empty(0))
 
 
-COLUMNS = tuple(field.name for field in dataclasses.fields(Measures) if field.name != "heights")
+COLUMNS = tuple(field.name for field in dataclasses.fields(Measures) if not field.name.endswith("heights"))
 
 
 def covered_shares(boxes: FloatArray) -> FloatArray:
@@ -118,6 +126,7 @@ def _measured(items: Iterable[Item], what: str, hfov_deg: float) -> Measures:
     """Of each item: its pixels, boxes, number of people and their hidden shares. Images that cannot be decoded are left out."""
     rows: list[dict[str, float]] = []
     heights: list[FloatArray] = []
+    whole_heights: list[FloatArray] = []
     faults: list[DatasetError] = []
     for read, boxes, count, hidden in items:
         try:
@@ -131,6 +140,9 @@ def _measured(items: Iterable[Item], what: str, hfov_deg: float) -> Measures:
         rows.append({**row, **_light(pixels), **_people(boxes, width, height, hfov_deg)})
         if boxes is not None:
             heights.append((boxes[:, 3] - boxes[:, 1]) / width)
+            is_whole = (boxes[:, 1] > 1) & (boxes[:, 3] < height - 1)
+            is_whole &= covered_shares(boxes) == 0 if hidden is None else hidden == 0
+            whole_heights.append(heights[-1][is_whole])
     if not rows:
         raise DatasetError(
             f"{what}: found no image that can be measured" + (f", the first: {faults[0]}" if faults else "")
@@ -138,7 +150,8 @@ def _measured(items: Iterable[Item], what: str, hfov_deg: float) -> Measures:
     if faults:
         _LOG.warning("%s: left out %s, the first: %s", what, counted(len(faults), "damaged image"), faults[0])
     columns = {name: np.array([row[name] for row in rows]) for name in COLUMNS}
-    return Measures(**columns, heights=np.concatenate(heights or [np.empty(0)]))
+    all_heights, whole = (np.concatenate(each or [np.empty(0)]) for each in (heights, whole_heights))
+    return Measures(**columns, heights=all_heights, whole_heights=whole)
 
 
 def chosen_indices(count: int, limit: int, seed: int) -> list[int]:

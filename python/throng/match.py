@@ -119,8 +119,7 @@ def plot(path: str, real: Measures, others: dict[str, Measures]) -> None:
 
 def _measure_made(path: str, kind: str, real: Measures, hfov_deg: float) -> tuple[Dataset, Measures]:
     dataset = Dataset(path)
-    smallest = float(np.quantile(real.heights, 0.01)) if len(real.heights) else 0.0
-    measures = measure_dataset(dataset, hfov_deg=hfov_deg, whole=kind in _WHOLE_BODIES, min_height=smallest)
+    measures = measure_dataset(dataset, hfov_deg=hfov_deg, whole=kind in _WHOLE_BODIES, min_height=real.smallest)
     return dataset, measures
 
 

@@ -198,7 +198,7 @@ class RealSets(unittest.TestCase):
             columns = {name: np.full(20, np.nan) for name in match.COLUMNS}
             spread = np.exp(np.linspace(-0.5, 0.5, 20))
             columns.update(box_height=height * spread, count=count * spread, brightness=np.full(20, light))
-            return match.Measures(**columns, heights=height * spread)
+            return match.Measures(**columns, heights=height * spread, whole_heights=np.empty(0))
 
         job = {
             "drones": [{"camera": {"sensor": {"ev": {"uniform": [-0.5, 0.5]}}}}],
@@ -252,8 +252,7 @@ class Made(unittest.TestCase):
         figures = {}
         for name, each in (("preset", self.preset), ("matched", job)):
             data = throng.Dataset(self.made(each, f"{kind}_{name}"))
-            smallest = float(np.quantile(real.heights, 0.01))
-            figures[name] = match.measure_dataset(data, hfov_deg=HFOV, whole=kind == "mot", min_height=smallest)
+            figures[name] = match.measure_dataset(data, hfov_deg=HFOV, whole=kind == "mot", min_height=real.smallest)
         for column in ("box_height", "brightness", "pitch_deg", "camera_height_m"):
             far, near = (match.distance(real.known(column), figures[name].known(column)) for name in figures)
             self.assertLess(near, 0.75 * far, (kind, column))
@@ -271,7 +270,7 @@ class Thin(unittest.TestCase):
     def measures(self, heights, counts):
         columns = {name: np.ones(len(heights)) for name in match.COLUMNS}
         columns.update(box_height=np.array(heights), count=np.array(counts))
-        return match.Measures(**columns, heights=np.array(heights))
+        return match.Measures(**columns, heights=np.array(heights), whole_heights=np.empty(0))
 
     def test_joint_distribution(self):
         """Large people are few and small ones many in the real set, in the other set sizes and counts are independent."""
