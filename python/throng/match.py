@@ -107,6 +107,8 @@ def plot(path: str, real: Measures, others: dict[str, Measures]) -> None:
                 axis.step(values, (np.arange(len(values)) + 1) / len(values), where="post", label=what)
         axis.set_xlabel(words)
         axis.set_ylim(0, 1)
+    for axis in axes.flat[len(_WORDS) :]:
+        axis.remove()
     axes.flat[0].set_ylabel("share of the images")
     axes.flat[0].legend()
     try:

@@ -222,20 +222,23 @@ class RealSets(unittest.TestCase):
 class Made(unittest.TestCase):
     """Datasets of throng, exported, stand for photographs; images of the job that matches them have their figures."""
 
-    def setUp(self):
-        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
-        self.preset = json.loads((common.ROOT / "scenarios/presets/detection.job.json").read_text())
-        self.preset["runs"] = 6
-        self.preset["capture"] = {"rate_hz": 0.1, "from_s": 10, "to_s": 30}
-        self.preset["outputs"]["formats"] = ["visdrone-det", "mot"]
-        self.preset["outputs"]["splits"] = {"train": 1}
-        self.preset["drones"][0]["camera"].update(width=640, height=360)
+    @classmethod
+    def setUpClass(cls):
+        cls.root = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.preset = json.loads((common.ROOT / "scenarios/presets/detection.job.json").read_text())
+        cls.preset["runs"] = 6
+        cls.preset["capture"] = {"rate_hz": 0.1, "from_s": 10, "to_s": 30}
+        cls.preset["outputs"]["formats"] = ["visdrone-det", "mot"]
+        cls.preset["outputs"]["splits"] = {"train": 1}
+        cls.preset["drones"][0]["camera"].update(width=640, height=360)
+        cls.made_by_preset = throng.Dataset(cls.made(cls.preset, "preset"))
 
-    def made(self, job, name):
-        file = self.root / f"{name}.job.json"
+    @classmethod
+    def made(cls, job, name):
+        file = cls.root / f"{name}.job.json"
         file.write_text(json.dumps(job))
-        subprocess.run([common.THRONG, "run", file, "-o", self.root / name], check=True, capture_output=True)
-        return self.root / name / "dataset"
+        subprocess.run([common.THRONG, "run", file, "-o", cls.root / name], check=True, capture_output=True)
+        return cls.root / name / "dataset"
 
     def assert_matched(self, kind, layout, height, pitch, hours):
         source = json.loads(json.dumps(self.preset))
@@ -250,8 +253,8 @@ class Made(unittest.TestCase):
         job = {**json.loads(output.read_text()), "runs": 6, "seed": 99}
         real = match.measure_real(throng.open_real_set(kind, folder), hfov_deg=HFOV, limit=100, seed=0)
         figures = {}
-        for name, each in (("preset", self.preset), ("matched", job)):
-            data = throng.Dataset(self.made(each, f"{kind}_{name}"))
+        matched = throng.Dataset(self.made(job, f"{kind}_matched"))
+        for name, data in (("preset", self.made_by_preset), ("matched", matched)):
             figures[name] = match.measure_dataset(data, hfov_deg=HFOV, whole=kind == "mot", min_height=real.smallest)
         for column in ("box_height", "brightness", "pitch_deg", "camera_height_m"):
             far, near = (match.distance(real.known(column), figures[name].known(column)) for name in figures)
