@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._measures import Measures
+from ._measures import Measures, distance
 from ._view_estimate import seen_ground_m2
 from .errors import DatasetError
 
@@ -61,18 +61,27 @@ def match_job(
 
 
 def correct_job(job: Mapping[str, Any], real: Measures, pilot: Measures) -> Job:
-    """The job with heights, people and exposure changed by how the images of the pilot, which it made, differ from the real ones."""
+    """The job with heights, people and exposure changed by how the images of the pilot, which it made, differ from the real ones.
+
+    Figures that differ by no more than chance lets them are kept.
+    """
     corrected: Job = copy.deepcopy(dict(job))
     randomize = corrected.setdefault("randomize", {})
-    heights = _log_change(pilot.known("box_height"), real.known("box_height"))
+    heights = _log_change(pilot.known("camera_height_m"), real.known("camera_height_m"))
+    if not len(real.known("camera_height_m")) or not len(pilot.known("camera_height_m")):
+        # People half as tall are twice as far away.
+        sizes = _log_change(pilot.known("box_height"), real.known("box_height"))
+        heights = None if sizes is None else (-sizes[0], sizes[1])
     if heights is not None:
-        # People half as tall are twice as far away; steps of more than four times follow from few people.
         for name in [name for name in randomize if name.endswith(".aim.height_m")]:
-            randomize[name] = _changed(randomize[name], (-heights[0], heights[1]), _HEIGHTS_M, 2)
+            randomize[name] = _changed(randomize[name], heights, _HEIGHTS_M, 2)
     people = _log_change(pilot.count[pilot.count > 0], real.count[real.count > 0])
     if people is not None and "crowd.agents" in randomize:
         randomize["crowd.agents"] = _changed(randomize["crowd.agents"], people, (1, _MAX_AGENTS), 0)
-    brighter = float(np.median(_exposures(real.brightness)) - np.median(_exposures(pilot.brightness)))
+    exposures = [_exposures(each.brightness) for each in (real, pilot)]
+    if not _differ(*exposures):
+        return corrected
+    brighter = float(np.median(exposures[0]) - np.median(exposures[1]))
     for drone in _drones(corrected):
         sensor = drone["camera"].setdefault("sensor", {})
         values = _values(sensor.get("ev", 0))
@@ -152,7 +161,9 @@ def _set_people(job: Job, real: Measures, hfov_deg: float, notes: list[str]) -> 
         share[~known] = np.median(share[known])
     agents = _quantiles(count / share)
     if agents[-1] > _MAX_AGENTS:
-        notes.append(f"people: up to {agents[-1]:.0f} in a scenario would be needed, cut to {_MAX_AGENTS}: not all have more")
+        notes.append(
+            f"people: up to {agents[-1]:.0f} in a scenario would be needed, cut to {_MAX_AGENTS}: not all have more"
+        )
     job.setdefault("randomize", {})["crowd.agents"] = _choice(agents, (1, _MAX_AGENTS), 0)
     for entry in job["scenario"] if isinstance(job.get("scenario"), list) else []:
         if isinstance(entry, dict):
@@ -216,9 +227,14 @@ def _values(distribution: Any) -> FloatArray:
     return np.interp(places, (0, 1), ends)
 
 
+def _differ(first: FloatArray, second: FloatArray) -> bool:
+    """Whether two samples are not of one distribution: Kolmogorov and Smirnov's test at 5 %."""
+    return distance(first, second) > 1.36 * math.sqrt(1 / len(first) + 1 / len(second))
+
+
 def _log_change(found: FloatArray, wanted: FloatArray) -> tuple[float, float] | None:
-    """Difference of the medians' logarithms and factor of their spread; None where there is nothing to compare."""
-    if not len(found) or not len(wanted):
+    """Difference of the medians' logarithms, of four times at most, and factor of their spread; None where they do not differ."""
+    if not len(found) or not len(wanted) or not _differ(found, wanted):
         return None
     logs = [np.quantile(np.log(values), (0.2, 0.5, 0.8)) for values in (found, wanted)]
     spreads = [float(each[2] - each[0]) for each in logs]

@@ -184,6 +184,7 @@ class RealSets(unittest.TestCase):
             code, _, errors = call(*arguments)
             self.assertEqual(code, 2, arguments)
             self.assertIn(message, errors)
+        self.assertEqual(call(*good)[0], 0)
         wrong.write_text("{}")
         self.assertIn("the base job: found no drones", call(*good, "--job", wrong)[2])
         # Damage between beginning and end shows when the image is decoded.
