@@ -14,6 +14,7 @@ from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, overl
 import numpy as np
 from numpy.typing import NDArray
 
+from ._frame_list import SUFFIX, read_frame_list
 from ._npy import read_npy
 from ._optional import require
 from ._words import counted, known_names
@@ -29,15 +30,20 @@ _RUN_TRACKS = 1_000_000
 class Dataset(Sequence[Frame]):
     """Frames of one or several datasets.
 
-    >>> dataset = Dataset("out/dataset")        # or a .tar or .zip file
+    >>> dataset = Dataset("out/dataset")        # or a .tar or .zip file, or a .frames.json of `python3 -m throng.match`
     >>> frame = dataset[0]
     >>> frame.people.boxes, frame.image(), frame.camera.project(frame.people.positions)
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        source = Source(os.fspath(path))
+        where, listed = os.fspath(path), None
+        if where.endswith(SUFFIX):
+            where, listed = read_frame_list(where)
+        source = Source(where)
         self._sources: list[Source] = [source]
         self._frames: list[tuple[int, int]] = [(0, i) for i in range(len(source.labels.images))]
+        if listed is not None:
+            self._frames = _listed_frames(source, listed, os.fspath(path))
         self._keep: AnnotationFilter | None = None
 
     def __len__(self) -> int:
@@ -422,6 +428,14 @@ def merge(datasets: Sequence[Dataset]) -> Dataset:
     if not datasets:
         raise ValueError("datasets: found none, expected at least one")
     return datasets[0] if len(datasets) == 1 else datasets[0]._merged_with(datasets[1:])
+
+
+def _listed_frames(source: Source, names: Sequence[str], where: str) -> list[tuple[int, int]]:
+    numbers = {str(image.get("file_name")): i for i, image in enumerate(source.labels.images)}
+    for name in names:
+        if name not in numbers:
+            raise DatasetError(f"{where}: found the frame {name!r}, expected one of {source.path}")
+    return [(0, numbers[name]) for name in names]
 
 
 def _part_sizes(count: int, shares: Mapping[str, float]) -> dict[str, int]:

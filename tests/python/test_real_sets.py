@@ -54,7 +54,7 @@ class VisDrone(Folder):
         self.write("annotations/b.txt", "0,0,2,2,0,1,0,0\n0,0,2,2,1,2,0,0\n")
         images = open_real_set("visdrone", self.root)
         self.assertEqual([image.path.name for image in images], ["a.jpg", "b.jpg"])
-        self.assertEqual(images[0].boxes.tolist(), [[1, 2, 4, 6]])
+        self.assertEqual((images[0].boxes.tolist(), images[0].hidden.tolist()), ([[1, 2, 4, 6]], [0]))
         self.assertEqual(images[0].ignored.tolist(), [[5, 5, 15, 15]])
         self.assertEqual((images[1].boxes.tolist(), images[1].ignored.tolist()), ([[0, 0, 2, 2]], [[0, 0, 2, 2]]))
         self.assertEqual(images[0].image().shape, (30, 40, 3))

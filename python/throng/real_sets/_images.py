@@ -35,6 +35,8 @@ class RealImage:
     """(M, 4) regions in which nothing is to be scored."""
     points: FloatArray | None
     """(N, 2) heads, px; None where the set has boxes only."""
+    hidden: FloatArray | None = None
+    """(N,) share of each person in boxes that others hide, as far as the set says; None where it does not."""
 
     @property
     def count(self) -> int:

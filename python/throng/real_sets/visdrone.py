@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from ._files import Skips, WrongLine, below, files_in, numbered, pairs, read_frames, read_lines, sequences, wrong_layout
 from ._images import RealImage, read_boxes
 
 _IGNORED, _PEDESTRIAN, _PERSON = 0, 1, 2
+# Middles of its levels of occlusion: none, up to a half, more.
+_HIDDEN = (0.0, 0.25, 0.75)
 _IMAGE = "left, top, width, height, score, category, truncation, occlusion"
 _VIDEO = "frame, id, " + _IMAGE
 
@@ -35,6 +39,7 @@ class _Labels:
 
     def __init__(self) -> None:
         self.people: list[list[float]] = []
+        self.hidden: list[float] = []
         self.ignored: list[list[float]] = []
 
     def add(self, values: list[float]) -> None:
@@ -45,12 +50,15 @@ class _Labels:
             raise WrongLine(f"found the category {category:g}, expected 0 to 11")
         is_person = category in (_PEDESTRIAN, _PERSON)
         if is_person and score == 1:
-            self.people.append(values[:4])
+            if min(values[2:4]) > 0:
+                self.people.append(values[:4])
+                self.hidden.append(_HIDDEN[int(np.clip(values[7], 0, 2))])
         elif is_person or category == _IGNORED:
             self.ignored.append(values[:4])
 
     def image(self, path: Path, sequence: str) -> RealImage:
-        return RealImage(path, sequence, read_boxes(self.people), read_boxes(self.ignored), None)
+        boxes, ignored = read_boxes(self.people), read_boxes(self.ignored)
+        return RealImage(path, sequence, boxes, ignored, None, np.array(self.hidden))
 
 
 def _read_images(folder: Path, skips: Skips) -> list[RealImage]:
