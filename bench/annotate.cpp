@@ -10,6 +10,7 @@
 #include "annotate/people/labels.h"
 #include "annotate/rasters/density.h"
 #include "annotate/rasters/preview.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "tests/annotate/synthetic_frame.h"
 
 namespace throng::annotate {
@@ -150,7 +151,7 @@ void jpeg(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   const auto rgb = draw_preview(frame, label_people(frame));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(jpeg_bytes(rgb, frame.width(), frame.height(), 95));
+    benchmark::DoNotOptimize(images::jpeg_bytes(rgb, frame.width(), frame.height(), 95));
   }
   state.SetItemsProcessed(state.iterations());
 }

@@ -26,10 +26,10 @@
 #include "annotate/people/coco.h"
 #include "annotate/people/labels.h"
 #include "annotate/rasters/png.h"
-#include "annotate/rasters/preview.h"
 #include "base/compute/random.h"
 #include "base/files/files.h"
 #include "base/geometry/angle.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "jobs/queue/dataset/publication.h"
 #include "places/scenarios/blueprint/load_scenario.h"
 #include "render/allocator.h"
@@ -196,7 +196,7 @@ class Worker {
     if (draw_only_) return renderer_.recycle(std::move(frame));
     const annotate::FrameLabels labels = annotate::label_people(frame);
     lap("labels");
-    jpeg_ = annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), 95);
+    jpeg_ = images::jpeg_bytes(frame.rgb, frame.width(), frame.height(), 95);
     lap("jpeg");
     const std::string depth = annotate::depth_png(frame);
     lap("png");

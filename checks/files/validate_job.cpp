@@ -148,13 +148,19 @@ class JobCheck {
     const json sensor = image_.record.value("sensor", json::object());
     const std::string path = fmt::format("drones.{}.camera.sensor.", drone);
     for (const char* name : {"iso", "full_well_e", "read_noise_e", "exposure_s", "readout_s",
-                             "vignette", "white_balance_k"}) {
+                             "field_s", "vignette", "color_shading"}) {
       compare(path + name, fmt::format("sensor.{}", name), sensor.value(name, json()));
     }
-    const json ev = job_.at(path + "ev");
-    if (ev.is_number() && sensor.contains("ev")) {
-      compare_number(path + "ev", "sensor.ev", sensor.at("ev").get<double>(),
-                     ev.get<double>() + job_.of_frame("ev"));
+    for (const char* name : {"ev", "white_balance_k"}) {
+      const json run = job_.at(path + name);
+      if (!run.is_number() || !sensor.contains(name)) continue;
+      compare_number(path + name, fmt::format("sensor.{}", name), sensor.at(name).get<double>(),
+                     run.get<double>() + job_.of_frame(name));
+    }
+    const json processing = sensor.value("processing", json::object());
+    for (const auto& [name, value] : processing.items()) {
+      compare(fmt::format("drones.{}.camera.processing.{}", drone, name),
+              fmt::format("sensor.processing.{}", name), value);
     }
     compare("outputs.image.quality", "sensor.jpeg_quality", sensor.value("jpeg_quality", json()));
     if (sensor.contains("exposure_gain")) check_metering(path, sensor);
@@ -170,7 +176,9 @@ class JobCheck {
     if (job_.has(path + "iso") || !sensor.contains("iso")) return;
     constexpr double kLuxIso = 250 * 2.8 * 2.8 * 60;
     const double wanted = kLuxIso / sensor.value("illuminance_lux", 1.0) * gain;
-    const double expected = wanted < 400 ? 0 : std::min(wanted, 1600.0);
+    const json min_iso = job_.at(path + "min_iso");
+    const double expected = std::max(wanted < 400 ? 0 : std::min(wanted, 1600.0),
+                                     min_iso.is_number() ? min_iso.get<double>() : 0);
     const double found = sensor.at("iso");
     if (std::abs(found - expected) > 1e-6 * (1 + expected)) {
       fault(path + "iso", "sensor.iso", fmt::format("{}", found), fmt::format("{}", expected));

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "annotate/people_sheet/people_sheet.h"
-#include "annotate/rasters/preview.h"
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "base/text/words.h"
 #include "cli/shell/commands.h"
 #include "cli/shell/interrupt.h"
@@ -100,7 +100,7 @@ annotate::SheetOptions read_options(const SheetArguments& arguments,
 std::string sheet_encoded(const annotate::Sheet& sheet, const std::string& extension) {
   constexpr int kQuality = 82;
   if (extension != ".png") {
-    return annotate::jpeg_bytes(sheet.rgb, sheet.width, sheet.height, kQuality);
+    return images::jpeg_bytes(sheet.rgb, sheet.width, sheet.height, kQuality);
   }
   skinning::Image image(sheet.width, sheet.height);
   for (std::size_t i = 0; 3 * i < sheet.rgb.size(); ++i) {

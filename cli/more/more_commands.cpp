@@ -29,7 +29,8 @@ nlohmann::json check_calibration(const nlohmann::json& request) {
 }  // namespace
 
 Extension more_commands() {
-  return {.commands = {add_live, add_live_process, add_validate, add_validate_crowd, add_calibrate},
+  return {.commands = {add_live, add_live_process, add_validate, add_validate_crowd, add_calibrate,
+                       add_train, add_match},
           .tasks = {{jobs::to_string({jobs::Task::Kind::calibrate}), &calibrate_in}},
           .confined_work = {{"calibration", &check_calibration}}};
 }

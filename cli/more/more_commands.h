@@ -9,7 +9,7 @@ class App;
 
 namespace throng::cli {
 
-/// Calibration, live flights, checks of datasets and of crowd models.
+/// Calibration, live flights, checks of datasets and of crowd models, commands in Python.
 Extension more_commands();
 
 // Each function adds its subcommand with a callback that performs it, as those of
@@ -17,6 +17,8 @@ Extension more_commands();
 void add_calibrate(CLI::App& app);
 void add_live(CLI::App& app);
 void add_live_process(CLI::App& app);
+void add_match(CLI::App& app);
+void add_train(CLI::App& app);
 void add_validate(CLI::App& app);
 void add_validate_crowd(CLI::App& app);
 

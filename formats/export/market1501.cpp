@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "annotate/rasters/preview.h"
 #include "base/compute/random.h"
 #include "base/files/files.h"
 #include "base/graphics/images/jpeg_file.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "formats/dataset/reid_attributes.h"
 #include "formats/dataset/reid_identities.h"
 #include "formats/export/makers.h"
@@ -258,8 +258,8 @@ class Market1501Exporter : public Exporter {
           fmt::format("{}/{}_c{}s{}_{:06}_{:02}.jpg", crop.folder, number, image.camera, run + 1,
                       image.frame, written[crop.number]++);
       const CropBox& box = crop.box;
-      output_.write(name, annotate::jpeg_bytes(cut(rgb, jpeg.width(), box), box.width, box.height,
-                                               kCropQuality));
+      output_.write(name, images::jpeg_bytes(cut(rgb, jpeg.width(), box), box.width, box.height,
+                                             kCropQuality));
       crops_csv_.write(fmt::format("{},{},{},{},{},{},{},{},{},{}\n", name, image.file, box.x,
                                    box.y, box.width, box.height, run_, image.camera_id,
                                    crop.track_id, crop.visibility));

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "annotate/rasters/preview.h"
 #include "base/geometry/angle.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "jobs/pipeline/frames/gimbal.h"
 #include "sim/sensors/gimbal.h"
 #include "spec/job/environment.h"
@@ -96,7 +96,7 @@ const std::vector<std::uint8_t>& OnboardCamera::draw(const Moment& moment, std::
 
 std::string OnboardCamera::image(const Moment& moment, std::size_t drone, double time_s) {
   const std::vector<std::uint8_t>& rgb = draw(moment, drone, time_s);
-  return annotate::jpeg_bytes(rgb, frame_.width(), frame_.height(), kJpegQuality);
+  return images::jpeg_bytes(rgb, frame_.width(), frame_.height(), kJpegQuality);
 }
 
 }  // namespace throng::live

@@ -326,6 +326,15 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
   return max_motion_px;
 }
 
+void interlace(const Frame& field, Frame& frame) {
+  check(field.rgb.size() == frame.rgb.size(), "fields are of one size");
+  const auto row_bytes = static_cast<std::ptrdiff_t>(3) * frame.width();
+  for (std::ptrdiff_t row = 1; row < frame.height(); row += 2) {
+    std::copy_n(field.rgb.begin() + row * row_bytes, row_bytes,
+                frame.rgb.begin() + row * row_bytes);
+  }
+}
+
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
                const camera::Exposure& exposure, const NeighborTimes& neighbors, bool is_metered) {
   check(exposure.exposure_s >= 0 && exposure.readout_s >= 0, "time runs forwards");

@@ -53,4 +53,7 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
                const camera::Exposure& exposure, const NeighborTimes& neighbors = {},
                bool is_metered = false);
 
+/// Gives `frame` the odd rows' colors of the other field, a frame of the same size.
+void interlace(const Frame& field, Frame& frame);
+
 }  // namespace throng::render

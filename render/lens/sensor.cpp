@@ -102,12 +102,21 @@ Eigen::Vector3d white(double temperature_k) {
   return (rgb_of_xyz * xyz).cwiseMax(kMinGain);
 }
 
-/// Share of light that falls on each pixel of a row.
+/// Shares of light that fall on each pixel of a row.
 void fall_off(const camera::Intrinsics& lens, double share, int row, std::vector<float>& light) {
   for (int x = 0; x < lens.width; ++x) {
     const Eigen::Vector2d direction = lens.direction_of({x, row}).value_or(Eigen::Vector2d::Zero());
     const double cos2 = 1 / (1 + direction.squaredNorm());
     light[static_cast<std::size_t>(x)] = static_cast<float>(1 - share + share * cos2 * cos2);
+  }
+}
+
+/// Shares of red and blue that are left of each pixel of a row.
+void shade_colors(const camera::Intrinsics& lens, double lost, int row, std::vector<float>& left) {
+  const Eigen::Vector2d middle(0.5 * (lens.width - 1), 0.5 * (lens.height - 1));
+  for (int x = 0; x < lens.width; ++x) {
+    const double off = (Eigen::Vector2d(x, row) - middle).squaredNorm() / middle.squaredNorm();
+    left[static_cast<std::size_t>(x)] = static_cast<float>(1 - lost * off);
   }
 }
 
@@ -131,15 +140,21 @@ void apply_sensor(const camera::Sensor& sensor, std::uint64_t seed, Frame& frame
   const auto rows = static_cast<std::size_t>(frame.height());
   parallel_ranges(rows, kNoiseGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<float> light(width, 1.0F);
+    std::vector<float> red_and_blue(width, 1.0F);
     for (std::size_t row = begin; row < end; ++row) {
       if (sensor.vignette > 0) {
         fall_off(frame.camera.intrinsics, sensor.vignette, static_cast<int>(row), light);
+      }
+      if (sensor.color_shading > 0) {
+        shade_colors(frame.camera.intrinsics, sensor.color_shading, static_cast<int>(row),
+                     red_and_blue);
       }
       Noise noise(seed, row);
       std::uint8_t* bytes = &frame.rgb[row * width * kChannels];
       for (std::size_t i = 0; i < width * kChannels; ++i) {
         const auto channel = static_cast<Eigen::Index>(i % kChannels);
         float value = linear_from_srgb(bytes[i]) * gains[channel] * light[i / kChannels];
+        if (channel != 1) value *= red_and_blue[i / kChannels];
         if (iso > 0) {
           const float counted = value * electrons;
           value += noise.next() * std::sqrt(counted + read_variance) / electrons;

@@ -89,6 +89,29 @@ def light(folder):
     page.save(DOCS / "light.jpg", quality=90)
 
 
+CAMERAS = (None, "dji", "gopro", "phone", "surveillance")
+
+
+def cameras(folder):
+    """A column for each kind of camera, the ideal one first: the whole image, and a part of it, pixel by pixel."""
+    from PIL import Image
+
+    width, height, column = 1280, 720, 400
+    page = Image.new("RGB", (column * len(CAMERAS), 225 + 360))
+    for i, preset in enumerate(CAMERAS):
+        camera = {"width": width, "height": height, "pitch_deg": -30, **({"preset": preset} if preset else {})}
+        job = {"scenario": "city_square/everyday", "seed": 4, "environment": {"time_of_day": "16:30"}}
+        job["drones"] = [{"id": "view", "start": [-17, -10, 9], "camera": {"yaw_deg": 29, **camera}}]
+        job |= {"capture": {"rate_hz": 1, "from_s": 20, "to_s": 20}, "outputs": {"annotations": ["coco"]}}
+        below = folder / str(i)
+        below.mkdir()
+        image = Image.fromarray(run_job(below, job)[0].image())
+        page.paste(image.resize((column, 225), Image.LANCZOS), (i * column, 0))
+        left, top = (width - column) // 2, height // 2
+        page.paste(image.crop((left, top, left + column, top + height - top)), (i * column, 225))
+    page.save(DOCS / "cameras.jpg", quality=90)
+
+
 def scenarios(folder):
     """The sheet of each shipped scenario, and the table of docs/shipped_scenarios.md, which are of the same runs."""
     page = DOCS / "shipped_scenarios.md"
@@ -115,6 +138,7 @@ RENDERED = {
     "semantic.jpg": semantic,
     "weather.jpg": weather,
     "light.jpg": light,
+    "cameras.jpg": cameras,
     "people_sheet.jpg": people,
     "scenarios/generated.jpg": lambda _: call(SHEETS / "generated_sheet.py"),
     "scenarios/": scenarios,

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "annotate/rasters/preview.h"
 #include "base/files/files.h"
 #include "base/geometry/angle.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "places/scenarios/blueprint/load_scenario.h"
 #include "render/animator.h"
 #include "render/renderer.h"
@@ -63,8 +63,8 @@ class Sheet {
 
   std::string jpeg() const {
     constexpr int kQuality = 85;
-    return annotate::jpeg_bytes(rgb_, width_ * static_cast<int>(kViews.size()),
-                                height_ * static_cast<int>(rows_), kQuality);
+    return images::jpeg_bytes(rgb_, width_ * static_cast<int>(kViews.size()),
+                              height_ * static_cast<int>(rows_), kQuality);
   }
 
  private:

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "annotate/rasters/preview.h"
 #include "base/files/files.h"
 #include "base/geometry/angle.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "places/scenarios/blueprint/load_scenario.h"
 #include "render/animator.h"
 #include "render/renderer.h"
@@ -84,7 +84,7 @@ void run(const std::string& trace_file, const std::string& out, const char* chos
   constexpr int kQuality = 88;
   if (chosen != nullptr) {
     const render::Frame frame = draw(all.at(std::stoul(chosen)), trace, people, scenario);
-    write_file_atomically(out, annotate::jpeg_bytes(frame.rgb, kWidth, kHeight, kQuality));
+    write_file_atomically(out, images::jpeg_bytes(frame.rgb, kWidth, kHeight, kQuality));
     return;
   }
   const std::size_t rows = (all.size() + kColumns - 1) / kColumns;
@@ -92,9 +92,8 @@ void run(const std::string& trace_file, const std::string& out, const char* chos
   for (std::size_t i = 0; i < all.size(); ++i) {
     place(draw(all[i], trace, people, scenario), i, sheet);
   }
-  write_file_atomically(out,
-                        annotate::jpeg_bytes(sheet, kColumns * (kWidth / 2),
-                                             static_cast<int>(rows) * (kHeight / 2), kQuality));
+  write_file_atomically(out, images::jpeg_bytes(sheet, kColumns * (kWidth / 2),
+                                                static_cast<int>(rows) * (kHeight / 2), kQuality));
 }
 
 }  // namespace

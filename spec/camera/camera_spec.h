@@ -9,6 +9,7 @@
 #include "camera/camera.h"
 #include "spec/camera/exposure.h"
 #include "spec/camera/gimbal_spec.h"
+#include "spec/camera/processing.h"
 #include "spec/camera/sensor.h"
 
 namespace throng::camera {
@@ -37,6 +38,7 @@ struct FrameOffsets {
   double yaw_deg = 0;
   double pitch_deg = 0;
   double ev = 0;
+  double white_balance_k = 0;
 };
 
 /// Lens, sensor, exposure and mounting of a camera.
@@ -57,6 +59,7 @@ struct CameraSpec {
   Eigen::Vector3d mount_m = Eigen::Vector3d::Zero();  ///< camera's center in the body frame
   Sensor sensor;
   Exposure exposure;
+  Processing processing;
   GimbalSpec gimbal;
   FrameOffsets per_frame;  ///< standard deviations of a frame's offsets
 

@@ -10,6 +10,8 @@ struct Exposure {
   /// frame's time is the middle of the center row's exposure; rows above are earlier, rows below
   /// later.
   double readout_s = 0;
+  /// Interlaced video: the odd rows show the time this much before the frame's; 0: none does.
+  double field_s = 0;
 };
 
 }  // namespace throng::camera

@@ -226,6 +226,10 @@ void add_view_fields(FieldTable<CameraSpec>& table) {
   add_number(table, "per_frame/ev", "Exposure", "EV", 0, 3,
              at(&CameraSpec::per_frame, &camera::FrameOffsets::ev),
              "Standard deviation of each frame's offset from sensor.ev.");
+  add_number(table, "per_frame/white_balance_k", "White balance", "K", 0, 3000,
+             at(&CameraSpec::per_frame, &camera::FrameOffsets::white_balance_k),
+             "Standard deviation of each frame's offset from sensor.white_balance_k; their sum "
+             "stays between 1667 and 25000.");
 }
 
 void add_body_fields(FieldTable<CameraSpec>& table) {
@@ -267,11 +271,18 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
              at(&CameraSpec::sensor, &camera::Sensor::vignette),
              "Share of the natural fall of light towards the corners, which is cos⁴ of the angle "
              "from the axis.");
+  add_number(table, "sensor/color_shading", "Color shading", "", 0, 0.5,
+             at(&CameraSpec::sensor, &camera::Sensor::color_shading),
+             "Share of red and blue that is lost in the corners, which turn green.");
   add_number(
       table, "sensor/iso", "ISO", "", 0, 409600, at(&CameraSpec::sensor, &camera::Sensor::iso),
       "Sets the noise: full_well_e · 100 / iso electrons make white. 0: no noise. Default: as "
       "the light asks for at f/2.8 and 1/60 s, 1600 at most, and no noise below 400, as by "
       "day.");
+  add_number(table, "sensor/min_iso", "Least automatic ISO", "", 0, 409600,
+             at(&CameraSpec::sensor, &camera::Sensor::min_iso),
+             "Where iso is left to the camera, it is at least this: real cameras have noise by "
+             "day, too.");
   add_number(table, "sensor/full_well_e", "Full well", "electrons", 100, 1000000,
              at(&CameraSpec::sensor, &camera::Sensor::full_well_e),
              "Electrons that fill a pixel at ISO 100.");
@@ -286,6 +297,35 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
              at(&CameraSpec::exposure, &camera::Exposure::readout_s),
              "From the first row to the last, the middle one at the frame's time: moving objects "
              "are skewed. 0: all rows at once (global shutter).");
+  add_number(table, "sensor/field_s", "Time between fields", "s", 0, 0.5,
+             at(&CameraSpec::exposure, &camera::Exposure::field_s),
+             "Interlaced video: the odd rows are this much older than the frame, whose labels are "
+             "those of the even rows. 0: all rows are of one time.");
+}
+
+void add_processing_fields(FieldTable<CameraSpec>& table) {
+  table.group("processing", "Processing",
+              "What the lens's blur, the camera's signal processor and its encoder do to the "
+              "images, in this order. 0: nothing.");
+  add_number(table, "processing/point_spread_px", "Point spread", "px", 0, 10,
+             at(&CameraSpec::processing, &camera::Processing::point_spread_px),
+             "Standard deviation of the Gaussian that a point of light becomes.");
+  add_number(table, "processing/flare", "Flare", "", 0, 0.5,
+             at(&CameraSpec::processing, &camera::Processing::flare),
+             "Share of the light that the lens scatters over the image.");
+  add_number(table, "processing/denoising", "Denoising", "", 0, 1,
+             at(&CameraSpec::processing, &camera::Processing::denoising),
+             "Strength of the filter that smooths noise, and fine texture with it.");
+  add_number(table, "processing/tone_mapping", "Local tone mapping", "", 0, 1,
+             at(&CameraSpec::processing, &camera::Processing::tone_mapping),
+             "How far dark and bright regions are brought to the brightness of the whole.");
+  add_number(table, "processing/sharpening", "Sharpening", "", 0, 5,
+             at(&CameraSpec::processing, &camera::Processing::sharpening),
+             "Gain of the unsharp mask, which draws bright and dark halos along edges.");
+  add_number(table, "processing/bits_per_px", "Encoded size", "bits per pixel", 0, 24,
+             at(&CameraSpec::processing, &camera::Processing::bits_per_px),
+             "The image is encoded once to this size before it is written: blocks of 8 x 8 pixels, "
+             "and half of the colors' resolution. 0: it is not.");
 }
 
 FieldTable<CameraSpec> make_camera_fields() {
@@ -294,6 +334,7 @@ FieldTable<CameraSpec> make_camera_fields() {
   add_distortion_fields(table);
   add_view_fields(table);
   add_body_fields(table);
+  add_processing_fields(table);
   return table;
 }
 

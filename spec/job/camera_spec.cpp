@@ -29,6 +29,20 @@ const json& presets() {
 
 bool gives(const json& value, const char* name) { return value.contains(below(name)); }
 
+/// Replaces the fields of `lent` by those that are given, group by group: a distribution, too, is
+/// replaced as a whole.
+void lend(const json& given, json& lent) {
+  for (const auto& [name, value] : given.items()) {
+    const bool is_group = value.is_object() && !value.empty() &&
+                          camera_fields().find(name + "/" + value.begin().key()) != nullptr;
+    if (is_group && lent.contains(name)) {
+      lent[name].update(value);
+    } else {
+      lent[name] = value;
+    }
+  }
+}
+
 /// Reports contradictions in the object.
 void check_choices(const json& value, const CameraSpec& spec, const std::string& pointer,
                    std::vector<Problem>& problems) {
@@ -89,7 +103,7 @@ CameraSpec read_camera(const json& value, const std::string& pointer,
     given = found->at("camera");
     // A field of view of the job's own counts, whatever the preset is made of.
     if (value.contains("hfov_deg")) given.erase("fx_px");
-    given.merge_patch(value);
+    lend(value, given);
   }
   const std::string no_source;
   camera_fields().read(given, spec, {pointer, no_source, problems});

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "formats/dataset/mask.h"
 #include "formats/dataset/raster_files.h"
 #include "formats/files/npy.h"
@@ -368,7 +369,7 @@ TEST_F(Validate, ImagesThatWereExchanged) {
   const fs::path a = root_ / "images/run000/d1/000001.jpg";
   const fs::path b = root_ / "images/run000/d1/000002.jpg";
   const render::Frame other = annotate::empty_frame(160, 120);
-  write("images/run000/d1/000001.jpg", annotate::jpeg_bytes(other.rgb, 160, 120, 50));
+  write("images/run000/d1/000001.jpg", images::jpeg_bytes(other.rgb, 160, 120, 50));
   fs::rename(a, folder_ / "aside");
   fs::rename(b, a);
   fs::rename(folder_ / "aside", b);

@@ -42,7 +42,7 @@ class FirstProgram(FolderTest):
 
     def test_it_lacks_only_what_the_first_image_does_not_need(self):
         missing = commands(THRONG) - commands(FIRST)
-        self.assertEqual(missing, {"calibrate", "live", "validate", "validate-crowd"})
+        self.assertEqual(missing, {"calibrate", "live", "match", "train", "validate", "validate-crowd"})
         self.assertEqual(commands(FIRST) - commands(THRONG), set())
 
     def test_work_that_it_lacks_is_named(self):

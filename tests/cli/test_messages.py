@@ -73,6 +73,12 @@ class Messages(FolderTest):
         self.assertIn("--output", printed("help", "run"))
         self.assertIn("FILE.json, a folder or an id", printed("help", "scenario", "check"))
 
+    def test_commands_in_python_get_their_arguments(self):
+        for name in ("train", "match"):
+            self.assertIn(f"throng.{name}", printed(name, "--help"))
+            missing = printed(name, "--help", variables={"THRONG_PYTHON": "/no/python"}, code=3)
+            self.assertIn("cannot start /no/python", missing)
+
     def test_help_is_plain_text(self):
         for command in ([], ["metrics"], ["calibrate", "pose"]):
             text = printed(*command, "--help")

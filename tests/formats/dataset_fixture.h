@@ -15,9 +15,9 @@
 #include "annotate/people/keypoints.h"
 #include "annotate/rasters/density.h"
 #include "annotate/rasters/png.h"
-#include "annotate/rasters/preview.h"
 #include "base/files/files.h"
 #include "base/files/hash.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "base/version.h"
 #include "formats/export/exporter.h"
 #include "tests/annotate/synthetic_frame.h"
@@ -105,7 +105,7 @@ class SmallDataset : public ::testing::Test {
       write_file_atomically(root_ / path, bytes);
     };
     write(image.file_name,
-          annotate::jpeg_bytes(rendered.rgb, rendered.width(), rendered.height(), 80));
+          images::jpeg_bytes(rendered.rgb, rendered.width(), rendered.height(), 80));
     write(image.density_file, annotate::npz_bytes(annotate::density_map(heads, rendered.width(),
                                                                         rendered.height(), 4)));
     rendered.flow.assign(2 * rendered.id.size(), 1.5F);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "annotate/rasters/preview.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {
@@ -52,8 +52,7 @@ class HeadExports : public ::testing::Test {
     constexpr int kSize = 16;
     const std::vector<std::uint8_t> pixels(3UL * kSize * kSize, gray);
     for (const Image& image : images) {
-      write_file_atomically(out_.root() / image.file,
-                            annotate::jpeg_bytes(pixels, kSize, kSize, 95));
+      write_file_atomically(out_.root() / image.file, images::jpeg_bytes(pixels, kSize, kSize, 95));
     }
     out_.run(format, images);
   }

@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "annotate/rasters/preview.h"
 #include "base/graphics/images/jpeg_file.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "tests/formats/hand_made.h"
 #include "tests/formats/readers.h"
 
@@ -106,7 +106,7 @@ void write_jpeg(const Export& out, const Image& image) {
     }
   }
   write_file_atomically(out.root() / image.file,
-                        annotate::jpeg_bytes(rgb, kMarketWidth, kMarketHeight, 100));
+                        images::jpeg_bytes(rgb, kMarketWidth, kMarketHeight, 100));
 }
 
 std::vector<Image> two_cameras(const Export& out, const std::string& run = "run002") {

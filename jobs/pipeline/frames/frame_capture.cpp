@@ -11,6 +11,7 @@
 #include "jobs/pipeline/frames/flight_record.h"
 #include "jobs/pipeline/frames/frame_draw.h"
 #include "jobs/pipeline/frames/gimbal.h"
+#include "render/lens/processing.h"
 #include "render/lens/sensor.h"
 #include "render/scenery/metering.h"
 #include "render/truth/flow_targets.h"
@@ -151,14 +152,23 @@ CapturedFrame FrameCapture::capture(std::size_t drone, std::int64_t frame) {
   };
   render::Exposed exposed =
       render::expose(lens_, moment, time_s, camera.exposure, neighbors, camera.sensor.is_metered);
+  if (camera.exposure.field_s > 0) {
+    render::Exposed other = render::expose(lens_, moment, time_s - camera.exposure.field_s,
+                                           camera.exposure, {}, camera.sensor.is_metered);
+    render::interlace(other.frame, exposed.frame);
+    lens_.recycle(std::move(other.frame));
+  }
   if (!camera.sensor.iso) {
-    camera.sensor.iso = render::metered_iso(exposed.illuminance_lux, exposed.gain);
+    camera.sensor.iso =
+        std::max(camera.sensor.min_iso, render::metered_iso(exposed.illuminance_lux, exposed.gain));
   }
   constexpr unsigned kFrameBits = 40;
   const std::uint64_t index =
       (static_cast<std::uint64_t>(drone) << kFrameBits) + static_cast<std::uint64_t>(frame);
+  render::apply_optics(camera.processing, exposed.frame);
   render::apply_sensor(camera.sensor, derive_seed(run_seed_, Stream::camera_noise, index),
                        exposed.frame);
+  render::apply_processing(camera.processing, camera.sensor, exposed.frame);
   if (clock_ != nullptr) clock_->lap("light and rows");
   CapturedFrame captured;
   captured.sensor = sensor_record(camera, exposed, job_->outputs.image_quality).dump();

@@ -14,6 +14,7 @@
 #include "annotate/rasters/preview.h"
 #include "annotate/rasters/zone_counts.h"
 #include "base/error.h"
+#include "base/graphics/images/jpeg_writer.h"
 #include "camera/camera.h"
 #include "jobs/pipeline/frames/frame_capture.h"
 #include "jobs/pipeline/runs/job_scenario.h"
@@ -103,15 +104,15 @@ class ShardOutput {
     image.facts = &views_.facts;
     image.drone_ids = &drone_ids_;
     const std::string jpeg =
-        annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
+        images::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
     lap("jpeg");
     publication_.add(image.file_name, jpeg);
     lap("write");
     write_kinds(frame, labels, jpeg, image);
     if (has_preview(job_, frame.index)) {
       publication_.add("previews/" + place + ".jpg",
-                       annotate::jpeg_bytes(annotate::draw_preview(frame, labels), frame.width(),
-                                            frame.height(), job_.outputs.image_quality));
+                       images::jpeg_bytes(annotate::draw_preview(frame, labels), frame.width(),
+                                          frame.height(), job_.outputs.image_quality));
       lap("previews");
     }
     if (coco_) coco_->add(image, labels);

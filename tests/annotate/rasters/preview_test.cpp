@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/graphics/images/jpeg_writer.h"
 #include "tests/annotate/synthetic_frame.h"
 
 namespace throng::annotate {
@@ -59,9 +60,9 @@ TEST(Preview, FitsIntoTinyImages) {
 
 TEST(JpegBytes, DecodeToTheImage) {
   const render::Frame frame = empty_frame(321, 123);
-  const std::string jpeg = jpeg_bytes(frame.rgb, 321, 123, 95);
-  EXPECT_EQ(jpeg, jpeg_bytes(frame.rgb, 321, 123, 95));
-  EXPECT_LT(jpeg_bytes(frame.rgb, 321, 123, 10).size(), jpeg.size());
+  const std::string jpeg = images::jpeg_bytes(frame.rgb, 321, 123, 95);
+  EXPECT_EQ(jpeg, images::jpeg_bytes(frame.rgb, 321, 123, 95));
+  EXPECT_LT(images::jpeg_bytes(frame.rgb, 321, 123, 10).size(), jpeg.size());
 
   tjhandle decoder = tjInitDecompress();
   const auto* bytes = reinterpret_cast<const unsigned char*>(jpeg.data());

@@ -172,6 +172,23 @@ TEST(CameraSpec, PresetsFillInMissingFields) {
   EXPECT_EQ(listed, std::set<std::string>(known.begin(), known.end()));
 }
 
+TEST(CameraSpec, KindsOfCamerasAreDrawnForEachRun) {
+  const CameraSpec spec = parsed(R"({"preset": "phone", "sensor": {"iso": {"choice": [200, 400]},
+      "exposure_s": {"choice": [0.001, 0.002]}, "readout_s": 0}, "processing": {"flare": 0}})");
+  std::set<double> sharpenings;
+  for (std::uint64_t run = 0; run < 20; ++run) {
+    const CameraSpec camera = camera_of_run(spec, run, "/drones/0/camera");
+    // The job's distribution replaces the preset's as a whole; other fields of the group stay.
+    EXPECT_TRUE(camera.exposure.exposure_s == 0.001 || camera.exposure.exposure_s == 0.002);
+    EXPECT_EQ(camera.exposure.readout_s, 0);
+    EXPECT_EQ(camera.processing.flare, 0);
+    EXPECT_GE(camera.sensor.vignette, 0.2);
+    EXPECT_LE(camera.sensor.vignette, 0.6);
+    sharpenings.insert(camera.processing.sharpening);
+  }
+  EXPECT_EQ(sharpenings.size(), 20);
+}
+
 TEST(CameraSpec, DistributionsAreDrawnForEachRun) {
   const CameraSpec spec = parsed(
       R"({"pitch_deg": {"uniform": [-80, -30]}, "sensor": {"iso": {"choice": [100, 1600]}},

@@ -62,10 +62,11 @@ json two_values(const std::string& path) {
                                                {"quality", {"draft", "high"}}};
   const auto found = special.find(path);
   if (found != special.end()) return found->second;
+  if (path.find("processing") != std::string::npos) return {0.4, 0.5};
   if (path.ends_with("_px") && path.starts_with("drones")) return {900, 901};
   if (path.find("distortion") != std::string::npos) return {0.001, 0.002};
   if (path.ends_with("natural_rad_s")) return {10, 12};
-  if (path.ends_with("white_balance_k")) return {5000, 6000};
+  if (path.ends_with("sensor.white_balance_k")) return {5000, 6000};
   if (path.ends_with("full_well_e")) return {5000, 6000};
   if (path.ends_with("visibility_m")) return {500, 900};
   if (path.ends_with("image.quality")) return {70, 90};
