@@ -1,7 +1,6 @@
 """throng.train: it learns, goes on where it was interrupted, scores on real sets, and names what is wrong.
 
-torch is optional: without it only the message that asks for it is tested, and the rest says that it is skipped. With
-$THRONG_LONG the figures of docs/training.md are measured again.
+torch is optional: without it only the message that asks for it is tested, and the rest says that it is skipped.
 """
 import contextlib
 import io
@@ -166,9 +165,10 @@ class Command(unittest.TestCase):
         }
 
     def test_it_learns(self):
-        said, scores = self.train("learned", "--rate", 0.006, "--width", 16, steps=130)
+        said, scores = self.train("learned", "--rate", 0.006, "--width", 12, "--task", "detect", steps=100)
         self.assertGreater(scores["detect", "synthetic", "all"]["ap50"], 0.2)
-        counted = scores["count", "synthetic", "all"]
+        _, counts = self.train("counted", "--rate", 0.006, "--task", "count", steps=120)
+        counted = counts["count", "synthetic", "all"]
         self.assertLess(counted["mae"], counted["always_the_mean"]["mae"])
         low, high = scores["detect", "synthetic", "all"]["ap50_interval"]
         self.assertTrue(low < scores["detect", "synthetic", "all"]["ap50"] < high)
@@ -225,7 +225,7 @@ class Command(unittest.TestCase):
         names = ["synthetic", "frames_4", "frames_8"]
         names += [f"{kind}_{percent}" for kind in ("fine_tune", "real", "mixed") for percent in (10, 100)]
         self.assertEqual(trained, set(names))
-        self.assertIn("| mixed_10 | 20 | visdrone train | 2 | 0.000 | ± 0.000 |", said)
+        self.assertIn("| mixed_10 | 20 | visdrone train | 2 |", said)
         self.assertIn("| real_10 | 2 |", said)
         if common.has("matplotlib"):
             self.assertIn("<svg", (self.root / "many/curves.svg").read_text())
@@ -309,16 +309,6 @@ class Report(unittest.TestCase):
         few, more = (pictures.spread(range(50), count, 3) for count in (5, 20))
         self.assertTrue(set(few) < set(more))
         self.assertEqual(len(experiments.plan(["frames"], [0] * 100, [], {})), 2)
-
-
-@unittest.skipUnless(HAS_TORCH and os.environ.get("THRONG_LONG"), "THRONG_LONG measures the page's figures again")
-class Page(unittest.TestCase):
-    def test_a_part_of_the_figures(self):
-        """The first rows of the page's tables, from the same frames and steps."""
-        script = common.ROOT / "scripts/studies/training_figures.py"
-        environment = {**os.environ, "THRONG": str(common.THRONG)}
-        result = subprocess.run([sys.executable, script, "--check"], capture_output=True, text=True, env=environment)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
 
 if __name__ == "__main__":

@@ -89,12 +89,14 @@ def _parser() -> argparse.ArgumentParser:
 
 def _check(given: argparse.Namespace) -> None:
     from .experiments import EXPERIMENTS
+    from .jobs import GROUPS
 
     given.experiment = given.experiment.split(",")
     given.ablate = [group for group in given.ablate.split(",") if group]
     if given.ablate and "ablation" not in given.experiment:
         given.experiment.append("ablation")
     known_names("--experiment", given.experiment, EXPERIMENTS)
+    known_names("--ablate", given.ablate, GROUPS)
     if given.tile % _MULTIPLE:
         raise ValueError(f"--tile: found {given.tile}, expected a multiple of {_MULTIPLE}")
     if bool(given.model) == bool(given.output):

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from .. import program
-from .._words import known_names
 from ..dataset import Dataset
 from ..errors import DatasetError
 
@@ -63,7 +62,6 @@ def make(job: dict[str, Any], folder: Path, *, quiet: bool = False) -> Dataset:
 def without(job: dict[str, Any], group: str, held_out: frozenset[str] = frozenset()) -> dict[str, Any]:
     """The job with a typical value wherever it samples something of the group; for "place" the first scenario that is not held
     out. ValueError where it samples nothing of it."""
-    known_names("--ablate", group, GROUPS)
     less = copy.deepcopy(job)
     if group == "place":
         scenarios = less.get("scenario")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
@@ -67,8 +68,7 @@ def train(
         model.load_state_dict(_load(start)["state"])
     model, mean = model.to(device), copy.deepcopy(model).to(device)
     optimizer = torch.optim.AdamW(model.parameters(), lr=setting.rate, weight_decay=1e-4)
-    schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, setting.rate, max(setting.steps, 1) + 1, pct_start=0.15)
-    parts = {"model": model, "mean": mean, "optimizer": optimizer, "schedule": schedule}
+    parts = {"model": model, "mean": mean, "optimizer": optimizer}
     first = 0
     if checkpoint.exists():
         saved = _load(checkpoint)
@@ -89,11 +89,11 @@ def train(
     for step, (images, people) in enumerate(loader, first + 1):
         model.train()
         loss = model.loss(images.to(device), [each.to(device) for each in people])
+        optimizer.param_groups[0]["lr"] = setting.rate * _rate(step / setting.steps)
         optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(model.parameters(), 5.0)
         optimizer.step()
-        schedule.step()
         _follow(mean, model, min(_DECAY, step / (step + 10)))
         if progress is not None:
             progress(step / setting.steps, f"step {step}, loss {loss.item():.3f}")
@@ -119,16 +119,37 @@ def load(path: Path, device: str = "cpu") -> tuple[Any, dict[str, Any]]:
 
 def _load(path: Path) -> dict[str, Any]:
     try:
-        saved: dict[str, Any] = torch.load(path, map_location="cpu", weights_only=True)
+        saved = torch.load(path, map_location="cpu", weights_only=True)
     except Exception as error:  # torch raises many kinds for files that are damaged
-        raise DatasetError(f"{path}: found no model of throng.train ({error})") from error
-    return saved
+        reason = str(error).split("\n")[0]
+        raise DatasetError(f"{path}: found no model of throng.train ({reason})") from error
+    loaded: dict[str, Any] = _mapped(saved, lambda one: float(one) if _is_float(one) else one)
+    return loaded
 
 
 def _save(content: dict[str, Any], path: Path) -> None:
-    """The file is whole or absent, whenever the program ends."""
-    torch.save(content, path.with_suffix(".part"))
+    """The file is whole or absent, whenever the program ends. Numbers are tensors in it: torch 1.13 reads no others without
+    running code of the file."""
+    packed = _mapped(content, lambda one: torch.tensor(one, dtype=torch.float64) if isinstance(one, float) else one)
+    torch.save(packed, path.with_suffix(".part"))
     os.replace(path.with_suffix(".part"), path)
+
+
+def _is_float(value: Any) -> bool:
+    return isinstance(value, torch.Tensor) and value.dtype == torch.float64 and value.dim() == 0
+
+
+def _mapped(value: Any, change: Callable[[Any], Any]) -> Any:
+    if isinstance(value, dict):
+        return {key: _mapped(member, change) for key, member in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_mapped(member, change) for member in value]
+    return change(value)
+
+
+def _rate(done: float) -> float:
+    """Share of the largest learning rate: up in the first sixth of the steps, down along a cosine."""
+    return min(6 * done, 0.5 + 0.5 * math.cos(math.pi * max(0.0, done - 1 / 6) * 6 / 5))
 
 
 def _check_plan(path: Path, plan: dict[str, Any]) -> None:
