@@ -22,7 +22,7 @@ PAGE = ROOT / "docs/training.md"
 THRONG = os.environ.get("THRONG", str(ROOT / "build/release/cli/throng"))
 PRESETS = ("detection", "counting", "tracking", "segmentation", "keypoints", "evacuation_video")
 TOLERANCE = 0.02
-COMMAND = "python3 -m throng.train examples/transfer.job.json"
+COMMAND = "python3 -m throng.train scenarios/transfer.job.json"
 
 
 def run(*command):
@@ -62,7 +62,9 @@ def check(folder):
         was = rows.get(line.split("|")[1], "")
         pairs = list(zip(re.findall(r"\d+\.\d+", was), re.findall(r"\d+\.\d+", line)))
         if len(pairs) < 5 or any(abs(float(a) - float(b)) > TOLERANCE for a, b in pairs):
-            raise SystemExit(f"docs/training.md has the row\n{was}\nmeasured is (without --check it is written)\n{line}")
+            raise SystemExit(
+                f"docs/training.md has the row\n{was}\nmeasured is (without --check it is written)\n{line}"
+            )
 
 
 def main():

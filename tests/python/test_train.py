@@ -205,7 +205,7 @@ class Command(unittest.TestCase):
             torch.load(self.root / out / "detect/synthetic/seed1/model.pt")["state"] for out in ("whole", "parts")
         ]
         self.assertTrue(all(torch.equal(a, b) for a, b in zip(states[0].values(), states[1].values())))
-        # What is finished is not done again, and other options are refused.
+        # A finished training is not repeated; other options are refused.
         with mock.patch.object(learning.torch.optim, "AdamW", None), mock.patch.object(evaluate, "detect", None):
             self.train("parts", "--task", "detect", steps=6)
         code, _, errors = run(self.dataset, "-o", self.root / "parts", "--split", "all", "--steps", 7, "--threads", 1)

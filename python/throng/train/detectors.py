@@ -87,7 +87,7 @@ def make(network: str, task: str, width: int) -> Any:
 
 
 def best_available() -> str:
-    """What `--network auto` takes: an installed library's network where a GPU can train it, else the small one."""
+    """The network of `--network auto`: an installed library's network where a GPU can train it, else the small one."""
     if torch.cuda.is_available():
         for name, module in (("ultralytics", "ultralytics"), ("torchvision", "torchvision.models.detection")):
             if available(module) is not None:

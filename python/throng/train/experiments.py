@@ -68,7 +68,7 @@ def plan(
 
 @dataclass
 class Bench:
-    """Where and how trainings run and are scored."""
+    """Folder, options, tests and machine of trainings."""
 
     folder: Path
     setting: learning.Setting

@@ -26,7 +26,7 @@ Progress = Callable[[float, str], None]
 
 @dataclass(frozen=True)
 class Setting:
-    """What a training depends on besides its pictures."""
+    """Everything that a training depends on besides its images."""
 
     task: str = "detect"
     network: str = "small"
@@ -53,11 +53,11 @@ def train(
 ) -> Path:
     """Writes folder/model.pt, or finds it there, and goes on with a training that was interrupted.
 
-    sources: lists of pictures, each of which is trained on as often. start: a model whose weights are the first ones.
+    sources: lists of images, each of which is trained on as often. start: a model whose weights are the first ones.
     every: steps between two checkpoints. Errors: DatasetError where folder has a training of another setting.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    plan = {**asdict(setting), "seed": seed, "pictures": [len(source) for source in sources]}
+    plan = {**asdict(setting), "seed": seed, "images": [len(source) for source in sources]}
     _check_plan(folder / "plan.json", plan)
     model_file, checkpoint = folder / "model.pt", folder / "checkpoint.pt"
     if model_file.exists():

@@ -86,9 +86,10 @@ class Detector(Module):  # type: ignore[misc]
         chance = torch.sigmoid(logits).clamp(1e-4, 1 - 1e-4)
         found = -torch.log(chance) * (1 - chance) ** 2 * (heat == 1)
         empty = -torch.log(1 - chance) * chance**2 * (1 - heat) ** 4 * (heat < 1) * asked
-        count = (heat == 1).sum().clamp(min=1)
         misfit = (1 - _giou(boxes, wanted)) * weight
-        return (found + empty).sum() / count + 2 * misfit.sum() / weight.sum().clamp(min=1e-3)
+        # Each tile counts as much, whether it shows a crowd or nobody.
+        count = (heat == 1).sum((1, 2)).clamp(min=1)
+        return ((found + empty + 2 * misfit).sum((1, 2)) / count).mean()
 
     def detect(self, images: Any) -> list[Any]:
         """Of each image boxes (N, 4) in pixels and scores (N,), by falling scores."""

@@ -20,6 +20,8 @@ SCALES = (0.5, 2.0)
 _LEAST_SEEN = 0.4
 """People of whom less is inside a tile are not trained on there, nor those who are smaller."""
 _LEAST_HEIGHT_PX = 5.0
+# Of those that tiles are cut around: the least, and the largest as a share of the tile.
+_HEIGHTS_PX = (10.0, 0.6)
 Pixels = NDArray[np.uint8]
 
 
@@ -27,7 +29,7 @@ class Tiles:
     """A map-style dataset: tile (3, side, side) from 0 to 1, and heads (N, 2) of its people or boxes (N, 5), whose last column is 0
     for what is to be ignored: people too small or too hidden, and regions without labels.
 
-    sources are lists of pictures that are sampled from equally often; task is "detect" or "count".
+    sources are lists of images that are sampled from equally often; task is "detect" or "count".
     """
 
     def __init__(
@@ -63,10 +65,11 @@ class Tiles:
         return pixels, torch.from_numpy(people).float()
 
     def _middles(self, picture: Picture) -> FloatArray:
-        if self.task == "count" or picture.boxes is None:
-            return picture.heads
-        middles: FloatArray = (picture.boxes[:, :2] + picture.boxes[:, 2:]) / 2
-        return middles
+        """(N, 3) x, y and height of people, 0 where it is not known."""
+        if picture.boxes is None:
+            return np.pad(picture.heads, ((0, 0), (0, 1)))
+        low, high = picture.boxes[:, :2], picture.boxes[:, 2:]
+        return np.column_stack(((low + high) / 2, (high - low)[:, 1]))
 
     def _boxes(self, picture: Picture, place: _Place) -> FloatArray:
         boxes = np.empty((0, 4)) if picture.boxes is None else picture.boxes
@@ -83,7 +86,7 @@ class Tiles:
 
 @dataclass(frozen=True)
 class _Place:
-    """Where a tile is in its image."""
+    """The place of a tile in its image."""
 
     corner: NDArray[np.int64]
     scale: float
@@ -98,16 +101,22 @@ class _Place:
 
 
 def _cut(
-    image: Pixels, middles: FloatArray, side: int, scales: tuple[float, float], rng: np.random.Generator
+    image: Pixels, people: FloatArray, side: int, scales: tuple[float, float], rng: np.random.Generator
 ) -> tuple[Pixels, _Place]:
-    """A square of the image, every second around somebody, resized to `side` and flipped in half of the cases."""
-    size = max(1, round(side / float(np.exp(rng.uniform(*np.log(scales))))))
-    rows, columns = image.shape[:2]
-    spare = np.array([max(columns - size, 0), max(rows - size, 0)])
+    """A square of the image, resized to `side` and flipped in half of the cases. Every second is around somebody, whose height
+    in it is sampled: most people of a dataset are far away, and near ones would hardly be learned."""
+    scale = float(np.exp(rng.uniform(*np.log(scales))))
+    is_around = len(people) > 0 and rng.random() < 0.5
+    if is_around:
+        x, y, height = people[rng.integers(len(people))]
+        if height > 0:
+            wanted = np.exp(rng.uniform(np.log(_HEIGHTS_PX[0]), np.log(_HEIGHTS_PX[1] * side)))
+            scale = float(np.clip(wanted / height, scales[0] / 2, scales[1] * 2))
+    size = max(1, round(side / scale))
+    spare = np.array([max(image.shape[1] - size, 0), max(image.shape[0] - size, 0)])
     corner = (rng.random(2) * (spare + 1)).astype(np.int64)
-    if len(middles) and rng.random() < 0.5:
-        middle = middles[rng.integers(len(middles))]
-        corner = np.clip(middle - size * rng.uniform(0.1, 0.9, 2), 0, spare).astype(np.int64)
+    if is_around:
+        corner = np.clip((x, y) - size * rng.uniform(0.1, 0.9, 2), 0, spare).astype(np.int64)
     part = image[corner[1] : corner[1] + size, corner[0] : corner[0] + size]
     part = np.pad(part, ((0, size - part.shape[0]), (0, size - part.shape[1]), (0, 0)))
     pil = require("PIL.Image", "throng.train")
@@ -127,7 +136,7 @@ def _little_light(tile: Pixels, rng: np.random.Generator) -> Pixels:
 
 
 def _strong_light(tile: Pixels, rng: np.random.Generator) -> Pixels:
-    """What cameras and their files do: exposure, tone, colors, sharpness, resolution, noise, compression; things in front."""
+    """Changes that cameras and their files make: exposure, tone, colors, sharpness, resolution, noise, compression; things in front."""
     values = (tile / 255.0) ** np.exp(rng.normal(0, 0.25))
     values = values * np.exp(rng.normal(0, 0.2) + rng.normal(0, 0.08, 3))
     values = (values - values.mean()) * np.exp(rng.normal(0, 0.25)) + values.mean() + rng.normal(0, 0.05)
