@@ -75,28 +75,15 @@ def train(
         first = int(saved["step"])
         for name, part in parts.items():
             part.load_state_dict(saved[name])
-    tiles = Tiles(
-        sources,
-        setting.task,
-        setting.tile,
-        setting.steps * setting.batch,
-        seed,
-        first=first * setting.batch,
-        scales=setting.scales,
-        light=setting.light,
-    )
+    tiles = _tiles(setting, sources, seed, first * setting.batch)
     loader = torch.utils.data.DataLoader(tiles, setting.batch, num_workers=workers, collate_fn=_collate)
     for step, (images, people) in enumerate(loader, first + 1):
-        model.train()
-        loss = model.loss(images.to(device), [each.to(device) for each in people])
-        optimizer.param_groups[0]["lr"] = setting.rate * _rate(step / setting.steps)
-        optimizer.zero_grad()
-        loss.backward()
-        torch.nn.utils.clip_grad_norm_(model.parameters(), 5.0)
-        optimizer.step()
+        done = step / setting.steps
+        optimizer.param_groups[0]["lr"] = setting.rate * _rate(done)
+        loss = _step(model, optimizer, images.to(device), [each.to(device) for each in people])
         _follow(mean, model, min(_DECAY, step / (step + 10)))
         if progress is not None:
-            progress(step / setting.steps, f"step {step}, loss {loss.item():.3f}")
+            progress(done, f"step {step}, loss {loss:.3f}")
         if step % every == 0 and step < setting.steps:
             _save({"step": step, **{name: part.state_dict() for name, part in parts.items()}}, checkpoint)
     counts = [picture.count for source in sources for picture in source]
@@ -104,6 +91,22 @@ def train(
     _save({"state": {name: value.cpu() for name, value in mean.state_dict().items()}, **about}, model_file)
     checkpoint.unlink(missing_ok=True)
     return model_file
+
+
+def _tiles(setting: Setting, sources: Sequence[Sequence[Picture]], seed: int, first: int) -> Tiles:
+    count = setting.steps * setting.batch
+    options: dict[str, Any] = {"first": first, "scales": setting.scales, "light": setting.light}
+    return Tiles(sources, setting.task, setting.tile, count, seed, **options)
+
+
+def _step(model: Any, optimizer: Any, images: Any, people: list[Any]) -> float:
+    model.train()
+    loss = model.loss(images, people)
+    optimizer.zero_grad()
+    loss.backward()
+    torch.nn.utils.clip_grad_norm_(model.parameters(), 5.0)
+    optimizer.step()
+    return float(loss.item())
 
 
 def load(path: Path, device: str = "cpu") -> tuple[Any, dict[str, Any]]:
