@@ -36,7 +36,7 @@ RULES = [
     *((f"web/*.{ending}", 32) for ending in ("ts", "tsx", "css", "js", "mjs", "json", "html", "svg", "txt")),
     *((f"scenarios/*.{ending}", 64) for ending in ("json", "xml")),
     *((f"{folder}/*.{ending}", 32) for folder in ("bench", "scripts", "examples", "tests")
-      for ending in ("py", "sh", "mjs", "jq", "yaml", "yml")),
+      for ending in ("py", "sh", "mjs", "yaml", "yml")),
     ("scripts/packages.txt", 8),
     ("docker/*", 16),
     (".ci/run", 1),

@@ -16,6 +16,8 @@ _PACKAGES = {
     "scipy": ("python3-scipy", "scipy"),
     "shapely": ("python3-shapely", "shapely"),
     "torch": ("python3-torch", "torch"),
+    "torchvision": ("python3-torchvision", "torchvision"),
+    "ultralytics": ("", "ultralytics"),
 }
 
 
@@ -28,9 +30,9 @@ def require(module: str, purpose: str) -> Any:
         if error.name is not None and error.name.split(".")[0] != package:
             raise
         debian, pip = _PACKAGES[package]
+        by_debian = f"apt-get install {debian} (Debian) or " if debian else ""
         raise MissingPackageError(
-            f"{purpose} needs the package {package}, which is not installed: "
-            f"apt-get install {debian} (Debian) or pip install {pip}"
+            f"{purpose} needs the package {package}, which is not installed: {by_debian}pip install {pip}"
         ) from error
 
 

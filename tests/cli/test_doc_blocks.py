@@ -46,7 +46,10 @@ NOT_RUN = {
         "pip install",
     ): "pip needs the network; the rest of the page is run by tests/python/test_docs.py",
     ("docs/robotics.md", "export PYTHONPATH"): "a minute of CPU time; the notebook is run by tests/python/test_docs.py",
-    ("docs/training.md", ""): "minutes of CPU time, needs torch; tests/python/test_examples.py runs the programs",
+    (
+        "docs/training.md",
+        "",
+    ): "minutes of CPU time, needs torch; tests/python/test_train.py and test_figures.py run the command",
     ("docs/publishing.md", ""): "needs an object store; tests/cli/test_publish.py runs the same commands",
     ("docs/studio.md", "node web/studio"): "never ends (--watch), needs the packages of web/",
 }

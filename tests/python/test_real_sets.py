@@ -211,6 +211,35 @@ class Uavdt(Folder):
         self.assert_wrong("uavdt", "M02_gt_whole.txt: found no folder", "M01_gt_ignore.txt:1: found '1,0,x'")
 
 
+class MovingDroneCrowd(Folder):
+    def test_frames_count_from_0(self):
+        for number in (1, 2):
+            self.write(f"frames/scene_1/3/{number}.jpg")
+        self.write("annotations/scene_1/3.csv", "0,1,10,20,4,6,1\n1,1,11,20,4,6,1\n1,2,1,1,2,2,1\n")
+        first, second = open_real_set("movingdronecrowd", self.root)
+        self.assertEqual((first.sequence, first.points.tolist()), ("scene_1/3", [[12, 23]]))
+        self.assertEqual((second.path.name, second.count, second.boxes), ("2.jpg", 2, None))
+        self.write("annotations/scene_1/3.csv", "2,1,10,20,4,6,1\n")
+        self.assert_skipped("movingdronecrowd", 2, "3.csv:1: found the frame 2, expected one of 2 images")
+        self.write("annotations/scene_1/4.csv")
+        parts = ("3.csv:1: found", "4.csv: found no folder")
+        self.assert_skipped("movingdronecrowd", 2, *parts)
+        shutil.rmtree(self.root / "frames")
+        self.assert_wrong("movingdronecrowd", "found annotations/; expected frames/ and annotations/")
+
+
+class UpCount(Folder):
+    def test_points(self):
+        self.write("test/images/0001__0001__30.5.jpg")
+        self.write("test/labels/0001__0001__30.5.txt", "12 7\n20.5 3\n")
+        (image,) = open_real_set("upcount", self.root)
+        self.assertEqual((image.points.tolist(), image.boxes), ([[12, 7], [20.5, 3]], None))
+        self.write("test/labels/0001__0001__30.5.txt", "12\n")
+        self.assert_wrong("upcount", "30.5.txt:1: found '12', expected 2 or more numbers: x y")
+        shutil.rmtree(self.root / "test/labels")
+        self.assert_wrong("upcount", "expected images/ and labels/")
+
+
 class Nwpu(Folder):
     def test_points(self):
         for name in ("0001", "0002"):

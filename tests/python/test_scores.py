@@ -87,6 +87,24 @@ class Detections(unittest.TestCase):
         limited = score_detections([DetectedImage(twice, [0.9, 0.8, 0.7], truth)], max_detections=1)
         self.assertEqual(limited.recall50, 0.5)
 
+    def test_by_size(self):
+        """Of a small and a large person the large one is found, the small one by a second detection of low score."""
+        truth = [[0, 0, 20, 30], [100, 100, 200, 300]]
+        boxes, values = [[100, 100, 200, 300], [300, 300, 310, 310], [0, 0, 20, 30]], [0.9, 0.8, 0.7]
+        scores = score_detections([DetectedImage(boxes, values, truth)])
+        self.assertEqual((scores.ap_small, scores.ap_large), (0.5, 1))
+        self.assertTrue(math.isnan(scores.ap_medium))
+
+    def test_interval(self):
+        one = DetectedImage([[0, 0, 10, 10]], [0.9], [[0, 0, 10, 10]])
+        none = DetectedImage([], [], [[0, 0, 10, 10]])
+        low, high = score_detections([one] * 20 + [none] * 20, resamples=200).ap50_interval
+        self.assertTrue(0.3 < low < 0.45 and 0.55 < high < 0.7, (low, high))
+        self.assertEqual(score_detections([one] * 3, resamples=20).ap50_interval, (1, 1))
+        self.assertIsNone(score_detections([one]).ap50_interval)
+        low, high = score_counts([1, 5], [1, 1], resamples=100).mae_interval
+        self.assertEqual((low, high), (0, 4))
+
     def test_nothing_and_nobody(self):
         self.assertEqual(score_detections([DetectedImage([], [], [[0, 0, 1, 1]])]).ap, 0)
         nobody = score_detections([DetectedImage([[0, 0, 1, 1]], [0.5], [])])

@@ -19,9 +19,11 @@ from ._files import Skipped, Skips
 from ._images import RealImage, RealSet
 from .dronecrowd import read_dronecrowd
 from .mot import read_mot
+from .movingdronecrowd import read_movingdronecrowd
 from .nwpu import read_nwpu
 from .shanghaitech import read_shanghaitech
 from .uavdt import read_uavdt
+from .upcount import read_upcount
 from .visdrone import read_visdrone
 
 _LOG = logging.getLogger("throng")
@@ -29,9 +31,11 @@ _LOG = logging.getLogger("throng")
 REAL_SETS: dict[str, Callable[[Path, Skips], list[RealImage]]] = {
     "dronecrowd": read_dronecrowd,
     "mot": read_mot,
+    "movingdronecrowd": read_movingdronecrowd,
     "nwpu": read_nwpu,
     "shanghaitech": read_shanghaitech,
     "uavdt": read_uavdt,
+    "upcount": read_upcount,
     "visdrone": read_visdrone,
 }
 

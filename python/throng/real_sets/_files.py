@@ -81,7 +81,7 @@ def _lines(path: Path) -> Iterator[tuple[int, str]]:
 
 def _numbers(text: str, columns: str, at_least: int) -> list[float]:
     try:
-        values = [float(part) for part in text.split(",")]
+        values = [float(part) for part in text.replace(",", " ").split()]
     except ValueError:
         values = []
     if len(values) < at_least or not all(math.isfinite(value) for value in values):
@@ -108,8 +108,9 @@ def read_frames(
     image_files: dict[int, Path],
     use: Callable[[int, list[float]], None],
     skips: Skips,
+    first: int = 1,
 ) -> None:
-    """Hands frame and values of each line of a sequence's labels to `use`.
+    """Hands frame and values of each line of a sequence's labels to `use`; frames count from `first`.
 
     Wrong lines are left out, and the frames that they begin with are removed from `image_files`: their labels are not whole.
     """
@@ -118,7 +119,7 @@ def read_frames(
     for number, text in _lines(path):
         frame = None
         try:
-            frame = _frame_number(text)
+            frame = _frame_number(text, first)
             if frame not in image_files and frame not in incomplete:
                 raise WrongLine(f"found the frame {frame}, expected one of {whole} images")
             use(frame, _numbers(text, columns, at_least))
@@ -129,13 +130,13 @@ def read_frames(
                 image_files.pop(frame, None)
 
 
-def _frame_number(text: str) -> int:
+def _frame_number(text: str, first: int) -> int:
     try:
         value = float(text.split(",")[0])
     except ValueError:
         value = math.nan
-    if not (1 <= value < 2**53 and value == int(value)):
-        raise WrongLine(f"found {text[:80]!r}, expected a frame at its beginning, a whole number from 1")
+    if not (first <= value < 2**53 and value == int(value)):
+        raise WrongLine(f"found {text[:80]!r}, expected a frame at its beginning, a whole number from {first}")
     return int(value)
 
 

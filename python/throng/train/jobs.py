@@ -1,0 +1,106 @@
+"""Datasets of jobs that the command makes itself, and jobs that sample less, for ablations."""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from .. import program
+from ..dataset import Dataset
+from ..errors import DatasetError
+
+_DISTRIBUTIONS = ("choice", "uniform", "log_uniform", "normal")
+# Paths of fields, as manifests name them, by what an ablation leaves out.
+GROUPS = {
+    "hour": r"environment\.time_of_day",
+    "weather": r"environment\.(?!time_of_day)",
+    "lens": r"drones\.\d+\.camera\.(?!sensor\b|.*pitch|.*yaw|.*roll|per_frame)",
+    "sensor": r"drones\.\d+\.camera\.(sensor\b|per_frame\.ev)|outputs\.image",
+    "appearance": r"appearance\.",
+    "place": r"scenario$",
+    "clutter": r"props\.|clutter\.",
+}
+
+
+def open_dataset(name: str, folder: Path, *, quiet: bool = False) -> Dataset:
+    """A dataset of throng, or that of a job: a file *.job.json or a preset's name. It is made in `folder`; the part that is
+    there already is not made again."""
+    job = read_job(name)
+    return Dataset(name) if job is None else make(job, folder / job_name(name), quiet=quiet)
+
+
+def read_job(name: str) -> dict[str, Any] | None:
+    """The job of a file or a preset; None for anything else."""
+    path = Path(name)
+    if not path.exists() and re.fullmatch(r"\w+", name):
+        scenarios = Path(os.environ.get("THRONG_SCENARIOS", Path(__file__).resolve().parents[3] / "scenarios"))
+        path = scenarios / f"presets/{name}.job.json"
+    if not (path.is_file() and path.suffix == ".json") or path.name.endswith(".frames.json"):
+        return None
+    try:
+        job = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise DatasetError(f"{path}: found no JSON ({error}), expected a job") from error
+    if not isinstance(job, dict):
+        raise DatasetError(f"{path}: found no object, expected a job")
+    return job
+
+
+def job_name(name: str) -> str:
+    return Path(name).name.split(".")[0]
+
+
+def make(job: dict[str, Any], folder: Path, *, quiet: bool = False) -> Dataset:
+    return program.run(job, folder, quiet=quiet)
+
+
+def without(job: dict[str, Any], group: str, held_out: frozenset[str] = frozenset()) -> dict[str, Any]:
+    """The job with a typical value wherever it samples something of the group; for "place" the first scenario that is not held
+    out. ValueError where it samples nothing of it."""
+    less = copy.deepcopy(job)
+    if group == "place":
+        scenarios = less.get("scenario")
+        kept = [one for one in scenarios if _id(one) not in held_out] if isinstance(scenarios, list) else []
+        if len(kept) < 2:
+            raise ValueError("--ablate: found one place, expected a job of several for place")
+        less["scenario"] = kept[0]
+        less.get("outputs", {}).pop("splits", None)
+        return less
+    found = [place for place in _sampled(less) if re.match(GROUPS[group], place[2])]
+    if not found:
+        raise ValueError(f"--ablate: found a job that samples nothing of {group}, expected one that does")
+    for parent, key, _ in found:
+        parent[key] = {"choice": [typical(parent[key])]}
+    return less
+
+
+def _id(scenario: Any) -> str:
+    return scenario if isinstance(scenario, str) else str(scenario.get("id", ""))
+
+
+def _sampled(value: Any, path: str = "") -> Iterator[tuple[Any, Any, str]]:
+    """Object, member and dotted path of each distribution."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, member in list(items):
+        inner = f"{path}.{key}" if path else str(key)
+        if isinstance(member, dict) and len(member) == 1 and next(iter(member)) in _DISTRIBUTIONS:
+            yield value, key, inner.removeprefix("randomize.")
+        else:
+            yield from _sampled(member, inner)
+
+
+def typical(distribution: dict[str, Any]) -> Any:
+    """The middle of a range, the mean, the first of a choice."""
+    ((kind, values),) = distribution.items()
+    if kind in ("choice", "normal"):
+        return values[0]
+    low, high = values
+    if isinstance(low, str):
+        middle = sum(int(part[:2]) * 60 + int(part[3:5]) for part in (low, high)) // 2
+        return f"{middle // 60:02}:{middle % 60:02}"
+    return (low * high) ** 0.5 if kind == "log_uniform" else (low + high) / 2
