@@ -6,6 +6,7 @@ import copy
 import json
 import os
 import re
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,12 +20,16 @@ _DISTRIBUTIONS = ("choice", "uniform", "log_uniform", "normal")
 GROUPS = {
     "hour": r"environment\.time_of_day",
     "weather": r"environment\.(?!time_of_day)",
-    "lens": r"drones\.\d+\.camera\.(?!sensor\b|.*pitch|.*yaw|.*roll|per_frame)",
-    "sensor": r"drones\.\d+\.camera\.(sensor\b|per_frame\.ev)|outputs\.image",
+    "lens": r"drones\.\d+\.camera\.(?!sensor\b|processing\b|gimbal\b|.*pitch|.*yaw|.*roll|per_frame)",
+    "sensor": r"drones\.\d+\.camera\.(sensor\b|processing\b|gimbal\b|per_frame\.ev)|outputs\.image",
     "appearance": r"appearance\.",
     "place": r"scenario$",
     "clutter": r"props\.|clutter\.",
 }
+
+
+# Members of cameras by the same groups: without one, all drones have the first drone's.
+CAMERA_MEMBERS = {"lens": ("hfov_deg", "model", "distortion"), "sensor": ("sensor", "processing", "gimbal")}
 
 
 def open_dataset(name: str, folder: Path, *, quiet: bool = False) -> Dataset:
@@ -62,7 +67,7 @@ def make(job: dict[str, Any], folder: Path, *, quiet: bool = False) -> Dataset:
 def without(job: dict[str, Any], group: str, held_out: frozenset[str] = frozenset()) -> dict[str, Any]:
     """The job with a typical value wherever it samples something of the group; for "place" the first scenario that is not held
     out. ValueError where it samples nothing of it."""
-    less = copy.deepcopy(job)
+    less = _with_whole_cameras(job)
     if group == "place":
         scenarios = less.get("scenario")
         kept = [one for one in scenarios if _id(one) not in held_out] if isinstance(scenarios, list) else []
@@ -76,7 +81,25 @@ def without(job: dict[str, Any], group: str, held_out: frozenset[str] = frozense
         raise ValueError(f"--ablate: found a job that samples nothing of {group}, expected one that does")
     for parent, key, _ in found:
         parent[key] = {"choice": [typical(parent[key])]}
+    cameras = [drone["camera"] for drone in less.get("drones", []) if "camera" in drone]
+    for camera in cameras[1:]:
+        camera.update({name: cameras[0][name] for name in CAMERA_MEMBERS.get(group, ()) if name in cameras[0]})
     return less
+
+
+def _with_whole_cameras(job: dict[str, Any]) -> dict[str, Any]:
+    """A copy of the job whose cameras have the fields of their presets as their own."""
+    whole = copy.deepcopy(job)
+    drones = [drone for drone in whole.get("drones", []) if drone.get("camera", {}).get("preset")]
+    if drones:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "job.json"
+            file.write_text(json.dumps(job), encoding="utf-8")
+            checked = json.loads(program.call(["check", "--json", file]))["job"]["drones"]
+        resolved = {drone["id"]: drone["camera"] for drone in checked}
+        for drone in drones:
+            drone["camera"] = {key: value for key, value in resolved[drone["id"]].items() if key != "preset"}
+    return whole
 
 
 def _id(scenario: Any) -> str:
