@@ -14,8 +14,8 @@ from ._job_base import Distribution, Part, choice, log_uniform, normal, uniform
 __all__ = [
     "Aim", "Appearance", "Area", "Battery", "Camera", "Capture", "Classes", "Columns", "Counts", "Crowd", "Density",
     "Distortion", "Distribution", "Drone", "Environment", "Fields", "Filters", "Gimbal", "Guidance", "Image", "Job",
-    "Line", "Mount", "Outputs", "PerFrame", "Perception", "Props", "Recorded", "ScenarioShare", "Sensor", "Splits",
-    "Webdataset", "Wind", "Zone", "choice", "log_uniform", "normal", "uniform",
+    "Line", "Mount", "Outputs", "PerFrame", "Perception", "Processing", "Props", "Recorded", "ScenarioShare", "Sensor",
+    "Splits", "Webdataset", "Wind", "Zone", "choice", "log_uniform", "normal", "uniform",
 ]
 
 
@@ -293,6 +293,27 @@ class Capture(Part):
 
 
 @dataclass
+class Processing(Part):
+    """What the lens's blur, the camera's signal processor and its encoder do to the images, in this order. 0:
+    nothing."""
+
+    _: KW_ONLY
+    point_spread_px: float | Distribution | None = None
+    """Standard deviation of the Gaussian that a point of light becomes. Unit: px. Default: 0."""
+    flare: float | Distribution | None = None
+    """Share of the light that the lens scatters over the image. Default: 0."""
+    denoising: float | Distribution | None = None
+    """Strength of the filter that smooths noise, and fine texture with it. Default: 0."""
+    tone_mapping: float | Distribution | None = None
+    """How far dark and bright regions are brought to the brightness of the whole. Default: 0."""
+    sharpening: float | Distribution | None = None
+    """Gain of the unsharp mask, which draws bright and dark halos along edges. Default: 0."""
+    bits_per_px: float | Distribution | None = None
+    """The image is encoded once to this size before it is written: blocks of 8 x 8 pixels, and half of the colors'
+    resolution. 0: it is not. Unit: bits per pixel. Default: 0."""
+
+
+@dataclass
 class Sensor(Part):
     """Effects of sensor and shutter on the images."""
 
@@ -307,9 +328,13 @@ class Sensor(Part):
     Default: 6500."""
     vignette: float | Distribution | None = None
     """Share of the natural fall of light towards the corners, which is cos⁴ of the angle from the axis. Default: 0."""
+    color_shading: float | Distribution | None = None
+    """Share of red and blue that is lost in the corners, which turn green. Default: 0."""
     iso: float | Distribution | None = None
     """Sets the noise: full_well_e · 100 / iso electrons make white. 0: no noise. Default: as the light asks for at
     f/2.8 and 1/60 s, 1600 at most, and no noise below 400, as by day."""
+    min_iso: float | Distribution | None = None
+    """Where iso is left to the camera, it is at least this: real cameras have noise by day, too. Default: 0."""
     full_well_e: float | Distribution | None = None
     """Electrons that fill a pixel at ISO 100. Unit: electrons. Default: 15000."""
     read_noise_e: float | Distribution | None = None
@@ -320,6 +345,9 @@ class Sensor(Part):
     readout_s: float | Distribution | None = None
     """From the first row to the last, the middle one at the frame's time: moving objects are skewed. 0: all rows at
     once (global shutter). Unit: s. Default: 0."""
+    field_s: float | Distribution | None = None
+    """Interlaced video: the odd rows are this much older than the frame, whose labels are those of the even rows. 0:
+    all rows are of one time. Unit: s. Default: 0."""
 
 
 @dataclass
@@ -354,6 +382,9 @@ class PerFrame(Part):
     Default: 0."""
     ev: float | Distribution | None = None
     """Standard deviation of each frame's offset from sensor.ev. Unit: EV. Default: 0."""
+    white_balance_k: float | Distribution | None = None
+    """Standard deviation of each frame's offset from sensor.white_balance_k; their sum stays between 1667 and 25000.
+    Unit: K. Default: 0."""
 
 
 @dataclass
@@ -398,7 +429,7 @@ class Camera(Part):
     size may be a distribution, sampled again for every run."""
 
     _: KW_ONLY
-    preset: Literal["dji_phantom_4_pro", "dji_phantom_4_pro_full_hd", "dji_phantom_4", "px4_typhoon_h480", "airsim"] | None = None
+    preset: Literal["dji_phantom_4_pro", "dji_phantom_4_pro_full_hd", "dji_phantom_4", "px4_typhoon_h480", "airsim", "dji", "gopro", "phone", "surveillance"] | None = None
     """A known camera, whose image size and field of view are defaults of the fields below (spec/job/cameras.json,
     with sources)."""
     calibration: str | Mapping[str, Any] | None = None
@@ -436,6 +467,9 @@ class Camera(Part):
     """The stabilized mount of the camera."""
     sensor: Sensor | None = None
     """Effects of sensor and shutter on the images."""
+    processing: Processing | None = None
+    """What the lens's blur, the camera's signal processor and its encoder do to the images, in this order. 0:
+    nothing."""
 
 
 @dataclass

@@ -13,6 +13,7 @@
 
 #include "annotate/people/coco.h"
 #include "annotate/people/keypoints.h"
+#include "annotate/people/labels.h"
 #include "annotate/rasters/density.h"
 #include "annotate/rasters/png.h"
 #include "base/files/files.h"
