@@ -294,8 +294,7 @@ class Capture(Part):
 
 @dataclass
 class Processing(Part):
-    """What the lens's blur, the camera's signal processor and its encoder do to the images, in this order. 0:
-    nothing."""
+    """Effects of the lens, the camera's signal processor and its encoder on the images, in this order. 0: none."""
 
     _: KW_ONLY
     point_spread_px: float | Distribution | None = None
@@ -334,7 +333,7 @@ class Sensor(Part):
     """Sets the noise: full_well_e · 100 / iso electrons make white. 0: no noise. Default: as the light asks for at
     f/2.8 and 1/60 s, 1600 at most, and no noise below 400, as by day."""
     min_iso: float | Distribution | None = None
-    """Where iso is left to the camera, it is at least this: real cameras have noise by day, too. Default: 0."""
+    """An automatic iso is at least this: real cameras have noise by day, too. Default: 0."""
     full_well_e: float | Distribution | None = None
     """Electrons that fill a pixel at ISO 100. Unit: electrons. Default: 15000."""
     read_noise_e: float | Distribution | None = None
@@ -468,8 +467,7 @@ class Camera(Part):
     sensor: Sensor | None = None
     """Effects of sensor and shutter on the images."""
     processing: Processing | None = None
-    """What the lens's blur, the camera's signal processor and its encoder do to the images, in this order. 0:
-    nothing."""
+    """Effects of the lens, the camera's signal processor and its encoder on the images, in this order. 0: none."""
 
 
 @dataclass

@@ -17,7 +17,9 @@ namespace {
 
 constexpr int kWhite16 = 65535;
 
-cv::Mat rgb_of(Frame& frame) { return {frame.height(), frame.width(), CV_8UC3, frame.rgb.data()}; }
+cv::Mat wrap_rgb(Frame& frame) {
+  return {frame.height(), frame.width(), CV_8UC3, frame.rgb.data()};
+}
 
 cv::Mat linear_light(const cv::Mat& rgb) {
   cv::Mat table(1, 256, CV_16UC1);
@@ -44,7 +46,7 @@ void encode_light(const cv::Mat& light, cv::Mat& rgb) {
   });
 }
 
-/// Light scattered over an eighth of the width, computed on a small picture.
+/// Light scattered over an eighth of the width, computed on a small image.
 cv::Mat scattered(const cv::Mat& light) {
   constexpr int kSmaller = 16;
   const cv::Size small(std::max(1, light.cols / kSmaller), std::max(1, light.rows / kSmaller));
@@ -130,14 +132,14 @@ void compress(double bits_per_px, Frame& frame) {
     }
   }
   const std::string bytes = encoded(low);
-  frame.rgb = images::JpegFile(bytes, "the camera's picture").decode(TJPF_RGB, /*strict=*/true);
+  frame.rgb = images::JpegFile(bytes, "the camera's image").decode(TJPF_RGB, /*strict=*/true);
 }
 
 }  // namespace
 
 void apply_optics(const camera::Processing& processing, Frame& frame) {
   if (processing.point_spread_px <= 0 && processing.flare <= 0) return;
-  cv::Mat rgb = rgb_of(frame);
+  cv::Mat rgb = wrap_rgb(frame);
   cv::Mat light = linear_light(rgb);
   if (processing.point_spread_px > 0) {
     cv::GaussianBlur(light, light, {}, processing.point_spread_px, 0, cv::BORDER_REPLICATE);
@@ -154,7 +156,7 @@ void apply_optics(const camera::Processing& processing, Frame& frame) {
 void apply_processing(const camera::Processing& processing, const camera::Sensor& sensor,
                       Frame& frame) {
   if (processing.denoising > 0 || processing.tone_mapping > 0 || processing.sharpening > 0) {
-    cv::Mat rgb = rgb_of(frame);
+    cv::Mat rgb = wrap_rgb(frame);
     cv::Mat converted;
     cv::cvtColor(rgb, converted, cv::COLOR_RGB2YCrCb);
     std::array<cv::Mat, 3> planes;

@@ -17,7 +17,7 @@ from PIL import Image
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PRESETS = ROOT / "scenarios/presets"
 COLUMNS = 3
-MAX_RUNS = 12
+MAX_IMAGES = 12
 WIDTH, HEIGHT = 480, 270
 
 
@@ -27,7 +27,7 @@ def excerpt(job):
     time_s = (start_s + end_s) / 2
     return {
         **job,
-        "runs": min(job["runs"], MAX_RUNS),
+        "runs": min(job["runs"], MAX_IMAGES // len(job["drones"])),
         "capture": {"rate_hz": 1, "from_s": time_s, "to_s": time_s + 0.5},
     }
 

@@ -281,8 +281,7 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
       "day.");
   add_number(table, "sensor/min_iso", "Least automatic ISO", "", 0, 409600,
              at(&CameraSpec::sensor, &camera::Sensor::min_iso),
-             "Where iso is left to the camera, it is at least this: real cameras have noise by "
-             "day, too.");
+             "An automatic iso is at least this: real cameras have noise by day, too.");
   add_number(table, "sensor/full_well_e", "Full well", "electrons", 100, 1000000,
              at(&CameraSpec::sensor, &camera::Sensor::full_well_e),
              "Electrons that fill a pixel at ISO 100.");
@@ -305,8 +304,8 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
 
 void add_processing_fields(FieldTable<CameraSpec>& table) {
   table.group("processing", "Processing",
-              "What the lens's blur, the camera's signal processor and its encoder do to the "
-              "images, in this order. 0: nothing.");
+              "Effects of the lens, the camera's signal processor and its encoder on the "
+              "images, in this order. 0: none.");
   add_number(table, "processing/point_spread_px", "Point spread", "px", 0, 10,
              at(&CameraSpec::processing, &camera::Processing::point_spread_px),
              "Standard deviation of the Gaussian that a point of light becomes.");

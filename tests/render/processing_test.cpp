@@ -18,7 +18,7 @@ namespace {
 constexpr int kSide = 128;
 
 /// A gray frame whose pixels have the values of a function of column and row.
-Frame picture(const std::function<int(int, int)>& value) {
+Frame gray_frame(const std::function<int(int, int)>& value) {
   Frame frame;
   frame.camera.intrinsics = camera::intrinsics_from_hfov(kSide, kSide, 1.4);
   for (int y = 0; y < kSide; ++y) {
@@ -46,7 +46,7 @@ double mean_light(const Frame& frame) {
 }
 
 Frame halves(int left, int right) {
-  return picture([=](int x, int /*y*/) { return x < kSide / 2 ? left : right; });
+  return gray_frame([=](int x, int /*y*/) { return x < kSide / 2 ? left : right; });
 }
 
 /// Standard deviation of the values of columns `begin` to `end`.
@@ -74,7 +74,7 @@ TEST(Processing, OffChangesNothing) {
 TEST(Processing, APointSpreadsAsAGaussianOfLight) {
   for (const double sigma : {0.8, 1.5, 3.0}) {
     // A line: columns beside it have the light of a Gaussian, integrated over a pixel.
-    Frame frame = picture([](int x, int /*y*/) { return x == kSide / 2 ? 255 : 0; });
+    Frame frame = gray_frame([](int x, int /*y*/) { return x == kSide / 2 ? 255 : 0; });
     apply_optics({.point_spread_px = sigma}, frame);
     for (int away = 0; away <= 3; ++away) {
       const double expected =
@@ -108,9 +108,9 @@ TEST(Processing, DenoisingSmoothsNoiseAndKeepsEdges) {
 
 TEST(Processing, DenoisingSmearsFineTexture) {
   const auto texture = [](int x, int y) { return 100 + 3 * ((x / 2 + y / 2) % 2); };
-  Frame frame = picture(texture);
+  Frame frame = gray_frame(texture);
   apply_processing({.denoising = 1}, {}, frame);
-  EXPECT_LT(deviation(frame, 8, 120), 0.5 * deviation(picture(texture), 8, 120));
+  EXPECT_LT(deviation(frame, 8, 120), 0.5 * deviation(gray_frame(texture), 8, 120));
 }
 
 TEST(Processing, ToneMappingBringsRegionsNearer) {
@@ -146,7 +146,7 @@ double blockiness(const Frame& frame) {
 
 TEST(Processing, FewerBitsMakeBlocks) {
   Random random(5, Stream::camera_noise, 0);
-  const Frame original = picture(
+  const Frame original = gray_frame(
       [&](int x, int y) { return 60 + x / 2 + y / 4 + static_cast<int>(random.bits() % 24U); });
   Frame many = original;
   Frame few = original;
