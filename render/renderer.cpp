@@ -257,7 +257,9 @@ const Frame& Renderer::State::draw_metered(const Scene& scene, const camera::Cam
 void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camera,
                                  const DrawChoice& choice, std::vector<Seen>& seen, Frame& frame) {
   const camera::Intrinsics& k = camera.intrinsics;
-  draw_light(scene, camera, choice.exposure_gain, shadow_map);
+  const camera::Camera whole{choice.whole != nullptr ? *choice.whole : camera.intrinsics,
+                             camera.pose};
+  draw_light(scene, whole, choice.exposure_gain, shadow_map);
   lap("shadows");
   draw_smooth(scene, camera, seen, frame);
   resize(target, k.width, k.height);

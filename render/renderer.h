@@ -64,6 +64,8 @@ struct DrawChoice {
   bool truth = true;  ///< false: areas are 0, and no normals, flow and parts
   const NeighborFrame* previous = nullptr;  ///< for the backward flow only
   double exposure_gain = 1;                 ///< factor on all light
+  /// The whole image of which rows are drawn; null: the camera's. All rows have its shadows.
+  const camera::Intrinsics* whole = nullptr;
 };
 
 /// Owns a GL context and the buffers of the scenario and the population in it. All calls must come

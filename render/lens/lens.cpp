@@ -258,6 +258,7 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
   DrawChoice weighted = choice;
   weighted.previous = previous_rendered ? &*previous_rendered : nullptr;
   weighted.weights = map == nullptr ? &weights : &map->weights;
+  weighted.whole = map == nullptr ? &lens : &map->whole;
   Frame frame = renderer_->draw(scene, {drawn, camera.pose},
                                 next_rendered ? &*next_rendered : nullptr, weighted);
   if (map != nullptr) {

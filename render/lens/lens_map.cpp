@@ -154,8 +154,8 @@ PixelWeights pixel_weights(const camera::Intrinsics& lens, const Rows& rows,
 
 }  // namespace
 
-Eigen::Vector2i wide_size(const camera::Intrinsics& lens) {
-  if (!lens.distortion) return {lens.width, lens.height};
+std::optional<camera::Intrinsics> wide_image(const camera::Intrinsics& lens) {
+  if (!lens.distortion) return lens;
   // The extremes are at the border of the image, or at that of what the lens shows, which a grid
   // finds but for one step: at most that much of the widest direction is missing.
   std::vector<Vector2d> directions;
@@ -167,10 +167,14 @@ Eigen::Vector2i wide_size(const camera::Intrinsics& lens) {
     }
     if (y == lens.height - 1) break;
   }
-  if (directions.empty()) return Eigen::Vector2i::Zero();
+  if (directions.empty()) return std::nullopt;
   if (!shows_everywhere(lens)) extend_to_limit(lens, directions);
-  const camera::Intrinsics wide = wide_pinhole(lens, directions);
-  return {wide.width, wide.height};
+  return wide_pinhole(lens, directions);
+}
+
+Eigen::Vector2i wide_size(const camera::Intrinsics& lens) {
+  const std::optional<camera::Intrinsics> wide = wide_image(lens);
+  return wide ? Eigen::Vector2i(wide->width, wide->height) : Eigen::Vector2i::Zero();
 }
 
 bool shows_everywhere(const camera::Intrinsics& lens) {
@@ -202,6 +206,7 @@ LensMap lens_map(const camera::Intrinsics& lens, const Rows& rows) {
       ray_directions(lens, {Eigen::Vector2i(0, rows.first), Eigen::Vector2i(lens.width, rows.end)});
   LensMap map;
   map.wide = wide_pinhole(lens, directions);
+  map.whole = wide_image(lens).value_or(map.wide);
   map.position.reserve(directions.size() * 2);
   for (const Vector2d& direction : directions) {
     const Eigen::Vector2f at = wide_position(map.wide, direction);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "camera/camera.h"
@@ -21,7 +22,8 @@ struct LensMap {
   /// x, y in the wide image (OpenCV's pixel coordinates) of each pixel; NaN outside of the lens
   /// model's valid range, where the image is empty.
   std::vector<float> position;
-  PixelWeights weights;  ///< number of pixels taken from each pixel of the wide image
+  camera::Intrinsics whole;  ///< the wide image of all rows, whose shadows these rows have
+  PixelWeights weights;      ///< number of pixels taken from each pixel of the wide image
 
   bool shows(std::size_t pixel) const { return !std::isnan(position[2 * pixel]); }
 };
@@ -30,8 +32,12 @@ struct LensMap {
 /// beyond the image's borders, up to a quarter of its size.
 LensMap lens_map(const camera::Intrinsics& lens, const Rows& rows);
 
-/// Size of the wide image of a camera: the image's own size for a pinhole, 0 if the lens model is
-/// not valid anywhere in the image.
+/// The wide image of all rows of a camera: the image itself for a pinhole; nothing if the lens
+/// model is not valid anywhere in the image. To a pixel at each side that of lens_map(), much
+/// faster.
+std::optional<camera::Intrinsics> wide_image(const camera::Intrinsics& lens);
+
+/// Size of the wide image, 0 without one.
 Eigen::Vector2i wide_size(const camera::Intrinsics& lens);
 
 /// Whether the lens model is valid in the whole image.

@@ -101,7 +101,7 @@ def cameras(folder):
     for i, preset in enumerate(CAMERAS):
         camera = {"width": width, "height": height, "pitch_deg": -30, **({"preset": preset} if preset else {})}
         job = {"scenario": "city_square/everyday", "seed": 4, "environment": {"time_of_day": "16:30"}}
-        job["drones"] = [{"id": "view", "start": [-17, -10, 9], "camera": {"yaw_deg": 29, **camera}}]
+        job["drones"] = [{"id": "view", "aim": {"height_m": 12}, "camera": camera}]
         job |= {"capture": {"rate_hz": 1, "from_s": 20, "to_s": 20}, "outputs": {"annotations": ["coco"]}}
         below = folder / str(i)
         below.mkdir()
