@@ -27,7 +27,9 @@ COMMAND = "python3 -m throng.train scenarios/transfer.job.json"
 
 def run(*command):
     environment = {**os.environ, "PYTHONPATH": str(ROOT / "python"), "THRONG_PROGRAM": THRONG}
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, encoding="utf-8", cwd=ROOT, env=environment)
+    done = subprocess.run(
+        [str(word) for word in command], stdout=subprocess.PIPE, encoding="utf-8", cwd=ROOT, env=environment
+    )
     if done.returncode:
         raise SystemExit(f"{command} failed")
     return done.stdout
