@@ -41,6 +41,12 @@ struct ValidateCrowdArguments {
 
 std::vector<validation::Experiment> read_experiments(const ValidateCrowdArguments& arguments) {
   std::vector<validation::Experiment> all = validation::find_experiments(arguments.data);
+  for (const std::string& name : validation::unread_files(arguments.data, all)) {
+    fmt::print(stderr,
+               "warning: {}: not read, since experiments.json does not describe it and its "
+               "name is none of the archive's (docs/validation.md)\n",
+               name);
+  }
   if (arguments.experiments.empty()) return all;
   std::vector<std::string_view> names;
   names.reserve(all.size());

@@ -76,7 +76,9 @@ struct SingleFile {
   metrics::TrajectoryFormat format;
   std::size_t people = 0;  ///< in the whole corridor
   double width_m = 0.8;
-  double from_x_m = 0;  ///< part of the straight in which people are measured
+  /// Part of the straight in which people are measured; where both are equal, the part that was
+  /// filmed.
+  double from_x_m = 0;
   double until_x_m = 0;
 };
 

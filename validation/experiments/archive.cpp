@@ -102,14 +102,13 @@ Experiment closed_corridor(const std::filesystem::path& file, std::size_t people
   single.file = file;
   single.format.frames_per_s = 25;
   single.people = people;
-  single.from_x_m = -0.9;
-  single.until_x_m = 1.9;
   return {"", kHermesSpeeds, {}, {}, std::move(single)};
 }
 
 /// The name of a file without its suffixes: "a.b.txt.gz" has the stem "a.b".
 std::string stem(std::filesystem::path file) {
-  if (file.extension() == ".gz") file = file.stem();
+  const std::string ending = file.extension().string();
+  if (ending == ".gz" || ending == ".GZ") file = file.stem();
   return file.stem().string();
 }
 
@@ -117,19 +116,25 @@ std::string stem(std::filesystem::path file) {
 
 std::optional<Experiment> archived_experiment(const std::filesystem::path& file) {
   const std::string name = stem(file);
+  // Some are published in capitals, too.
+  constexpr auto kAnyCase = std::regex::ECMAScript | std::regex::icase;
   std::smatch found;
   std::optional<Experiment> experiment;
   const auto number = [&](std::size_t group) { return std::stod(found[group]); };
   // Numbers are above 0, so that there is room for the people.
-  if (std::regex_match(name, found,
-                       std::regex(R"(uo-(?!000)(\d{3})-(?!000)(\d{3})-(?!000)(\d{3}))"))) {
+  if (std::regex_match(
+          name, found,
+          std::regex(R"(uo-(?!000)(\d{3})-(?!000)(\d{3})-(?!000)(\d{3}))", kAnyCase))) {
     experiment = hermes_corridor(file, kCmM * number(2), kCmM * number(3));
-  } else if (std::regex_match(name, found, std::regex(R"(\d{3}_[a-z]_(?!0[0-5])(\d{2})_h[-0+])"))) {
-    experiment = bottleneck(file, number(1) / 10);
-  } else if (std::regex_match(name, found, std::regex(R"((?:bi|uni)_corr_(?!0)(\d{3})_.*)"))) {
-    experiment = long_corridor(file, kCmM * number(1));
   } else if (std::regex_match(name, found,
-                              std::regex(R"((?:single_file|\d+)_n([1-9]\d{0,3})(?:_.*)?)"))) {
+                              std::regex(R"(\d{3}_[a-z]_(?!0[0-5])(\d{2})_h[-0+])", kAnyCase))) {
+    experiment = bottleneck(file, number(1) / 10);
+  } else if (std::regex_match(name, found,
+                              std::regex(R"((?:traj_)?(?:bi|uni)_corr_(?!0)(\d{3})_.*)", kAnyCase))) {
+    experiment = long_corridor(file, kCmM * number(1));
+  } else if (std::regex_match(
+                 name, found,
+                 std::regex(R"((?:single_file|\d+)_n([1-9]\d{0,3})(?:_.*)?)", kAnyCase))) {
     experiment = closed_corridor(file, static_cast<std::size_t>(number(1)));
   }
   if (experiment) experiment->name = name;

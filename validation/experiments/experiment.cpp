@@ -27,6 +27,10 @@ bool is_described(const std::vector<Experiment>& described, const fs::path& file
   });
 }
 
+bool is_hermes(const std::string& name) {
+  return name.starts_with("uo-") || name.starts_with("UO-");
+}
+
 std::vector<fs::path> files_in(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     throw InputError(
@@ -53,7 +57,7 @@ std::vector<Experiment> find_experiments(const fs::path& folder) {
   for (const fs::path& file : files) {
     std::optional<Experiment> known = archived_experiment(file);
     if (!known || is_described(described, file)) continue;
-    hermes = hermes || known->name.starts_with("uo-");
+    hermes = hermes || is_hermes(known->name);
     experiments.push_back(std::move(*known));
   }
   if (hermes) experiments.push_back(hermes_diagram());
@@ -73,6 +77,17 @@ std::vector<Experiment> find_experiments(const fs::path& folder) {
                       "one of each name; is a file there both compressed and not?"});
   }
   return experiments;
+}
+
+std::vector<std::string> unread_files(const fs::path& folder,
+                                      const std::vector<Experiment>& experiments) {
+  std::vector<std::string> names;
+  for (const fs::path& file : files_in(folder)) {
+    if (file.filename() != kFileName && !is_described(experiments, file)) {
+      names.push_back(file.filename().string());
+    }
+  }
+  return names;
 }
 
 }  // namespace throng::validation

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "spec/crowd/experiment.h"
@@ -14,5 +15,10 @@ namespace throng::validation {
 /// Opens no recording. Throws InputError for a file that is wrong, for two experiments of the same
 /// name, and if there is none.
 std::vector<Experiment> find_experiments(const std::filesystem::path& folder);
+
+/// Names of the folder's files that are no experiment by their name and that its experiments.json
+/// does not describe, sorted.
+std::vector<std::string> unread_files(const std::filesystem::path& folder,
+                                      const std::vector<Experiment>& experiments);
 
 }  // namespace throng::validation

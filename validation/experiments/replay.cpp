@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
+#include "base/compute/quantile.h"
 #include "base/error.h"
 #include "base/geometry/polygon.h"
 #include "metrics/trajectories/trajectory_file.h"
@@ -130,14 +133,28 @@ Walks walks_on_ground(Experiment& experiment) {
   return walks;
 }
 
+/// The part of the straight in which people were filmed, but for a step at each end, where only
+/// some of the bodies are seen.
+std::pair<double, double> filmed_part(const Walks& walks) {
+  constexpr double kEndM = 0.1;
+  constexpr double kStray = 0.001;  // positions of a tracker that lost somebody
+  std::vector<double> x_m;
+  for (const Walk& walk : walks.people) {
+    for (const Vector2d& place : walk.places) x_m.push_back(place.x());
+  }
+  return {quantile(x_m, kStray) + kEndM, quantile(x_m, 1 - kStray) - kEndM};
+}
+
 /// The density and speed of people in single file, as those of a loop.
 Loop measured_loop(const Experiment& experiment) {
   const SingleFile& single = *experiment.single_file;
   const Walks walks = read_walks(experiment, single.file, single.format, {});
   constexpr double kAsideM = 2;
+  const auto [from_x_m, until_x_m] = single.from_x_m < single.until_x_m
+                                         ? std::pair(single.from_x_m, single.until_x_m)
+                                         : filmed_part(walks);
   const AreaMeans means = means_in_area(
-      walks, {Vector2d(single.from_x_m, -kAsideM), Vector2d(single.until_x_m, kAsideM)},
-      {0, duration_s(walks)});
+      walks, {Vector2d(from_x_m, -kAsideM), Vector2d(until_x_m, kAsideM)}, {0, duration_s(walks)});
   const double per_m = means.density * 2 * kAsideM;
   Loop loop;
   loop.width_m = single.width_m;
@@ -148,8 +165,7 @@ Loop measured_loop(const Experiment& experiment) {
         experiment, single.file,
         fmt::format("{:.3g} people per meter from x = {:g} to {:g} m and y = {:g} to {:g} m, where "
                     "{} people would fill {:.3g} m",
-                    per_m, single.from_x_m, single.until_x_m, -kAsideM, kAsideM, single.people,
-                    loop.length_m),
+                    per_m, from_x_m, until_x_m, -kAsideM, kAsideM, single.people, loop.length_m),
         fmt::format("people in a corridor of {:.3g} to {:g} m",
                     2 * std::numbers::pi * single.width_m, kMaxLoopM));
   }

@@ -239,11 +239,21 @@ void expect_folder_refused(const std::filesystem::path& folder, const std::strin
   }
 }
 
+TEST(Folder, KnowsNamesInCapitals) {
+  const TemporaryFolder folder;
+  folder.write("traj_UNI_CORR_500_01.TXT.GZ", "");
+  folder.write("SINGLE_FILE_N20_CAM2.csv", "");
+  EXPECT_EQ(found_names(folder),
+            (std::vector<std::string>{"SINGLE_FILE_N20_CAM2", "traj_UNI_CORR_500_01"}));
+}
+
 TEST(Folder, HasDescribedAndKnownExperiments) {
   const TemporaryFolder folder;
   folder.write("bi_corr_400_b.txt", "");
   folder.write("notes.txt", "");
   EXPECT_EQ(found_names(folder), (std::vector<std::string>{"bi_corr_400_b"}));
+  EXPECT_EQ(unread_files(folder.path(), find_experiments(folder.path())),
+            std::vector<std::string>{"notes.txt"});
   folder.write("uo-180-180-070.txt.gz", "");
   EXPECT_EQ(found_names(folder),
             (std::vector<std::string>{"bi_corr_400_b", "uo-180-180-070", "uo-diagram"}));

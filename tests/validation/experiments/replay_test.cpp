@@ -165,6 +165,30 @@ TEST(Replay, MeasuresSingleFileAsALoop) {
   EXPECT_GT(simulated.quantities[0].value, 0);
 }
 
+TEST(Replay, MeasuresSingleFileWhereItWasFilmed) {
+  // Two cameras see other parts of the straight: the density is that of the people, not of the
+  // ground that one of them does not see.
+  const TemporaryFolder folder;
+  for (const double from_x_m : {-1.0, 6.0}) {
+    std::string text = "# framerate: 10\n";
+    for (int frame = 1; frame <= 200; ++frame) {
+      for (int person = 0; person < 60; ++person) {
+        // 0.8 m apart at 0.5 m/s.
+        const double x_m = 0.5 * 0.1 * frame - 0.8 * person + 14;
+        if (x_m < from_x_m || x_m > from_x_m + 3) continue;
+        text += std::to_string(person) + " " + std::to_string(frame) + " " + std::to_string(x_m) +
+                " 0\n";
+      }
+    }
+    Experiment experiment;
+    experiment.name = "file";
+    experiment.single_file = {folder.write("camera.txt", text), {}, 20, 0.8, 0, 0};
+    const Replay replay(experiment);
+    ASSERT_EQ(replay.recorded().quantities.size(), 1U);
+    EXPECT_NEAR(replay.recorded().quantities[0].at_density, 1 / 0.8 / 0.8, 0.1) << from_x_m;
+  }
+}
+
 TEST(Replay, RefusesASingleFileWithoutPeople) {
   const TemporaryFolder folder;
   Experiment experiment = in_single_file(folder);
