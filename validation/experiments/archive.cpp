@@ -129,8 +129,9 @@ std::optional<Experiment> archived_experiment(const std::filesystem::path& file)
   } else if (std::regex_match(name, found,
                               std::regex(R"(\d{3}_[a-z]_(?!0[0-5])(\d{2})_h[-0+])", kAnyCase))) {
     experiment = bottleneck(file, number(1) / 10);
-  } else if (std::regex_match(name, found,
-                              std::regex(R"((?:traj_)?(?:bi|uni)_corr_(?!0)(\d{3})_.*)", kAnyCase))) {
+  } else if (std::regex_match(
+                 name, found,
+                 std::regex(R"((?:traj_)?(?:bi|uni)_corr_(?!0)(\d{3})_.*)", kAnyCase))) {
     experiment = long_corridor(file, kCmM * number(1));
   } else if (std::regex_match(
                  name, found,
