@@ -50,6 +50,7 @@ NOT_RUN = {
         "docs/training.md",
         "",
     ): "minutes of CPU time, needs torch; tests/python/test_train.py and test_figures.py run the command",
+    ("docs/matching.md", ""): "needs photographs; tests/python/test_match.py runs the same commands",
     ("docs/publishing.md", ""): "needs an object store; tests/cli/test_publish.py runs the same commands",
     ("docs/studio.md", "node web/studio"): "never ends (--watch), needs the packages of web/",
 }
