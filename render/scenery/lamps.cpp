@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/ground/scenery_mesh.h"
 #include "render/props/shape_file.h"
 #include "render/scenery/railings.h"
 
