@@ -11,7 +11,6 @@ import argparse
 import json
 import logging
 import math
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from ._frame_list import SUFFIX, write_frame_list
+from ._job_file import preset_path, read_job
 from ._match_job import NIGHT_BRIGHTNESS, correct_job, match_job
 from ._measures import COLUMNS, Measures, distance, measure_dataset, measure_real
 from ._optional import require
@@ -27,10 +27,9 @@ from ._thin import choose_frames
 from ._words import counted
 from .dataset import Dataset
 from .errors import DatasetError, OutputFileError, ThrongError
-from .real_sets import REAL_SETS, open_real_set
+from .real_sets import REAL_SETS, WHOLE_BODIES, open_real_set
 
-_PRESETS = {True: "detection.job.json", False: "counting.job.json"}
-_WHOLE_BODIES = ("mot",)
+_PRESETS = {True: "detection", False: "counting"}
 _SHOWN = (0.1, 0.25, 0.5, 0.75, 0.9)
 _WORDS = {
     "count": "people",
@@ -45,27 +44,6 @@ _WORDS = {
     "pitch_deg": "pitch, deg",
     "camera_height_m": "camera height, m",
 }
-
-
-def _read_job(path: Path) -> dict[str, Any]:
-    try:
-        value = json.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, ValueError, RecursionError) as error:
-        raise DatasetError(f"{path}: found no JSON that can be read ({error}), expected a job") from None
-    if not isinstance(value, dict):
-        raise DatasetError(f"{path}: found {type(value).__name__}, expected a job, which is an object")
-    return value
-
-
-def _preset(has_boxes: bool) -> Path:
-    """The preset in $THRONG_SCENARIOS, in the source tree or where throng is installed."""
-    name = _PRESETS[has_boxes]
-    folders = [Path(os.environ["THRONG_SCENARIOS"])] if os.environ.get("THRONG_SCENARIOS") else []
-    folders += [Path(__file__).parents[2] / "scenarios", Path(sys.prefix) / "share/throng/scenarios"]
-    for folder in folders:
-        if (folder / "presets" / name).is_file():
-            return folder / "presets" / name
-    raise DatasetError(f"found no presets/{name} in {', '.join(map(str, folders))}: name a job with --job")
 
 
 def _write_job(path: str, job: dict[str, Any]) -> None:
@@ -121,7 +99,7 @@ def plot(path: str, real: Measures, others: dict[str, Measures]) -> None:
 
 def _measure_made(path: str, kind: str, real: Measures, hfov_deg: float) -> tuple[Dataset, Measures]:
     dataset = Dataset(path)
-    measures = measure_dataset(dataset, hfov_deg=hfov_deg, whole=kind in _WHOLE_BODIES, min_height=real.smallest)
+    measures = measure_dataset(dataset, hfov_deg=hfov_deg, whole=kind in WHOLE_BODIES, min_height=real.smallest)
     return dataset, measures
 
 
@@ -172,7 +150,11 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
 
 def _run(options: argparse.Namespace) -> None:
     images = open_real_set(options.kind, options.folder)
-    base = None if options.thin else _read_job(Path(options.job) if options.job else _preset(images.has_boxes))
+    base = (
+        None
+        if options.thin
+        else read_job(Path(options.job) if options.job else preset_path(_PRESETS[images.has_boxes]))
+    )
     real = measure_real(images, hfov_deg=options.hfov, limit=options.limit, seed=options.seed)
     others: dict[str, Measures] = {}
     job, chosen = base, None

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws docs/presets/NAME.jpg: an image of each of the first runs of each preset, twelve at most, with their boxes.
+"""Draws docs/presets/NAME.jpg: images of the first runs of each preset, one of each camera, twelve at most, with their boxes.
 
 Usage: scripts/sheets/preset_sheets.py THRONG [NAME...]
 

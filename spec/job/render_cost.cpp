@@ -34,6 +34,7 @@ double image_cpu_s(render::Quality quality, const camera::CameraSpec& camera,
   double image_s =
       supersampled_megapixels(camera) * cost.per_megapixel_s + people_in_view * cost.per_person_s;
   if (camera.exposure.exposure_s > 0 || camera.exposure.readout_s > 0) image_s *= kShutterFactor;
+  if (camera.exposure.field_s > 0) image_s *= 2;
   if (has_lens(camera)) image_s += supersampled_megapixels(camera) * kLensMegapixelS;
   return image_s;
 }

@@ -97,7 +97,7 @@ class Tiles(unittest.TestCase):
         pixels[20:50, 40:52] = 255
         source = self.picture([[40, 20, 52, 50]], pixels=pixels)
         found = 0
-        for image, people in tiles.Tiles([[source]], "detect", 64, 40, 3, light="none"):
+        for image, people in tiles.Tiles([[source]], "detect", 64, 40, 3, changes=False):
             if len(people) == 1 and people[0, 4] == 1 and (people[0, :4] > 1).all() and (people[0, :4] < 63).all():
                 rows, columns = np.nonzero(image[0].numpy() > 0.5)
                 edges = [columns.min(), rows.min(), columns.max() + 1, rows.max() + 1]
@@ -107,7 +107,7 @@ class Tiles(unittest.TestCase):
 
     def test_small_and_unscored_people_are_not_asked_for(self):
         source = self.picture([[10, 10, 20, 40], [30, 10, 32, 12]], [[60, 20, 80, 40]])
-        (_, people), *_ = tiles.Tiles([[source]], "detect", 128, 1, 1, scales=(1, 1), light="none")
+        (_, people), *_ = tiles.Tiles([[source]], "detect", 128, 1, 1, scales=(1, 1), changes=False)
         self.assertEqual(sorted(people[:, 4].tolist()), [0, 0, 1])
         heat, wanted, weight, asked = networks._targets(people, 32, 32)
         self.assertEqual((heat == 1).sum(), 1)

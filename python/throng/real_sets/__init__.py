@@ -38,6 +38,8 @@ REAL_SETS: dict[str, Callable[[Path, Skips], list[RealImage]]] = {
     "upcount": read_upcount,
     "visdrone": read_visdrone,
 }
+WHOLE_BODIES = ("mot",)
+"""Kinds of sets that label whole bodies; the others label what can be seen."""
 
 
 def open_real_set(kind: str, folder: str | os.PathLike[str]) -> RealSet:

@@ -17,11 +17,9 @@ from typing import Any
 
 from ..dataset import Dataset
 from ..errors import OutputFileError, ThrongError
-from ..real_sets import REAL_SETS, open_real_set
+from ..real_sets import REAL_SETS, WHOLE_BODIES, open_real_set
 from .._words import known_names
 
-# Sets that label whole bodies; the others label what can be seen.
-_WHOLE = ("mot",)
 _MULTIPLE = 32
 
 
@@ -225,7 +223,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         known_names("--test", kinds, ("throng", *REAL_SETS))
         boxes = given.boxes
         if boxes == "auto":
-            boxes = "whole" if kinds and kinds[0] in _WHOLE else "visible"
+            boxes = "whole" if kinds and kinds[0] in WHOLE_BODIES else "visible"
         results = (_run_score if given.model else _run_train)(given, boxes)
         if not results:
             raise ValueError("--test: found heads only, expected boxes, which a detector is scored by")

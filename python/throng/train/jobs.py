@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import copy
 import json
-import os
 import re
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from .. import program
+from .. import _job_file, program
+from .._frame_list import SUFFIX
 from ..dataset import Dataset
-from ..errors import DatasetError
 
 _DISTRIBUTIONS = ("choice", "uniform", "log_uniform", "normal")
 # Paths of fields, as manifests name them, by what an ablation leaves out.
@@ -43,17 +42,10 @@ def read_job(name: str) -> dict[str, Any] | None:
     """The job of a file or a preset; None for anything else."""
     path = Path(name)
     if not path.exists() and re.fullmatch(r"\w+", name):
-        scenarios = Path(os.environ.get("THRONG_SCENARIOS", Path(__file__).resolve().parents[3] / "scenarios"))
-        path = scenarios / f"presets/{name}.job.json"
-    if not (path.is_file() and path.suffix == ".json") or path.name.endswith(".frames.json"):
+        path = _job_file.preset_path(name)
+    if not (path.is_file() and path.suffix == ".json") or path.name.endswith(SUFFIX):
         return None
-    try:
-        job = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise DatasetError(f"{path}: found no JSON ({error}), expected a job") from error
-    if not isinstance(job, dict):
-        raise DatasetError(f"{path}: found no object, expected a job")
-    return job
+    return _job_file.read_job(path)
 
 
 def job_name(name: str) -> str:

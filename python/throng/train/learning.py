@@ -15,7 +15,7 @@ from .._optional import require
 from ..errors import DatasetError
 from .detectors import make
 from .pictures import Picture
-from .tiles import SCALES, Tiles
+from .tiles import Tiles
 
 torch = require("torch", "throng.train")
 
@@ -35,8 +35,6 @@ class Setting:
     tile: int = 192
     width: int = 24
     rate: float = 2e-3
-    scales: tuple[float, float] = SCALES
-    light: str = "strong"
 
 
 def train(
@@ -75,7 +73,8 @@ def train(
         first = int(saved["step"])
         for name, part in parts.items():
             part.load_state_dict(saved[name])
-    tiles = _tiles(setting, sources, seed, first * setting.batch)
+    count = setting.steps * setting.batch
+    tiles = Tiles(sources, setting.task, setting.tile, count, seed, first=first * setting.batch)
     loader = torch.utils.data.DataLoader(tiles, setting.batch, num_workers=workers, collate_fn=_collate)
     for step, (images, people) in enumerate(loader, first + 1):
         done = step / setting.steps
@@ -91,12 +90,6 @@ def train(
     _save({"state": {name: value.cpu() for name, value in mean.state_dict().items()}, **about}, model_file)
     checkpoint.unlink(missing_ok=True)
     return model_file
-
-
-def _tiles(setting: Setting, sources: Sequence[Sequence[Picture]], seed: int, first: int) -> Tiles:
-    count = setting.steps * setting.batch
-    options: dict[str, Any] = {"first": first, "scales": setting.scales, "light": setting.light}
-    return Tiles(sources, setting.task, setting.tile, count, seed, **options)
 
 
 def _step(model: Any, optimizer: Any, images: Any, people: list[Any]) -> float:

@@ -29,7 +29,8 @@ class Tiles:
     """A map-style dataset: tile (3, side, side) from 0 to 1, and heads (N, 2) of its people or boxes (N, 5), whose last column is 0
     for what is to be ignored: people too small or too hidden, and regions without labels.
 
-    sources are lists of images that are sampled from equally often; task is "detect" or "count".
+    sources are lists of images that are sampled from equally often; task is "detect" or "count"; changes: of light, sharpness and
+    noise.
     """
 
     def __init__(
@@ -42,10 +43,10 @@ class Tiles:
         *,
         first: int = 0,
         scales: tuple[float, float] = SCALES,
-        light: str = "strong",
+        changes: bool = True,
     ) -> None:
         self.sources, self.task, self.side, self.seed = sources, task, side, seed
-        self.first, self.count, self.scales, self.light = first, count, scales, light
+        self.first, self.count, self.scales, self.changes = first, count, scales, changes
         self._cache = Cache()
 
     def __len__(self) -> int:
@@ -59,7 +60,8 @@ class Tiles:
         pictures = self.sources[rng.integers(len(self.sources))]
         picture = pictures[rng.integers(len(pictures))]
         tile, place = _cut(self._cache.read(picture), self._middles(picture), self.side, self.scales, rng)
-        tile = _LIGHTS[self.light](tile, rng)
+        if self.changes:
+            tile = _changed(tile, rng)
         pixels = torch.from_numpy(np.ascontiguousarray(tile.transpose(2, 0, 1))).float() / 255
         people = self._boxes(picture, place) if self.task == "detect" else place.move(picture.heads)
         return pixels, torch.from_numpy(people).float()
@@ -125,17 +127,7 @@ def _cut(
     return tile[:, ::-1] if is_flipped else tile, _Place(corner, side / size, side, is_flipped)
 
 
-def _no_light(tile: Pixels, rng: np.random.Generator) -> Pixels:
-    return tile
-
-
-def _little_light(tile: Pixels, rng: np.random.Generator) -> Pixels:
-    values = tile / 255.0
-    values = (values - 0.45) * rng.uniform(0.7, 1.3) + 0.45 + rng.uniform(-0.06, 0.06, 3)
-    return _bytes(values)
-
-
-def _strong_light(tile: Pixels, rng: np.random.Generator) -> Pixels:
+def _changed(tile: Pixels, rng: np.random.Generator) -> Pixels:
     """Changes that cameras and their files make: exposure, tone, colors, sharpness, resolution, noise, compression; things in front."""
     values = (tile / 255.0) ** np.exp(rng.normal(0, 0.25))
     values = values * np.exp(rng.normal(0, 0.2) + rng.normal(0, 0.08, 3))
@@ -181,6 +173,3 @@ def _compress(tile: Pixels, rng: np.random.Generator) -> Pixels:
 
 def _bytes(values: FloatArray) -> Pixels:
     return np.asarray((values * 255).clip(0, 255), dtype=np.uint8)
-
-
-_LIGHTS = {"none": _no_light, "little": _little_light, "strong": _strong_light}
