@@ -54,6 +54,7 @@ void add_module(CLI::App& app, const std::string& name, const std::string& about
   CLI::App* command = app.add_subcommand(name, about);
   // Everything behind the name, --help included, is Python's to understand.
   command->set_help_flag();
+  command->footer("Its options: throng " + name + " --help");
   command->prefix_command();
   command->callback([command, name] { run_module("throng." + name, command->remaining()); });
 }

@@ -96,7 +96,7 @@ class Docs(unittest.TestCase):
                 for count in (2, 1):
                     command = tuple(words[:count])
                     if command not in helps:
-                        done = throng("help", *command, code=None)
+                        done = throng(*command, "--help", code=None)
                         helps[command] = done.stdout if done.returncode == 0 else None
                     if helps[command] is not None:
                         break
