@@ -94,16 +94,39 @@ DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t se
   return {density, mean_ring_speed(crowd, 20, 50)};
 }
 
-TestScene room_with_door(const Bottleneck& door) {
-  constexpr double kWall = 1;  // m
+namespace {
+
+/// The wall on one side of a door: on the left of those who leave (1) or on their right (-1).
+Polygon jamb(const Bottleneck& door, double outer_m, double side) {
   const double half = door.width_m / 2;
+  const double cut = std::min(door.corner_cut_m, door.room_m / 2 - half);
+  const double depth = std::min(cut, door.wall_m);
+  Polygon corners = {{0, side * outer_m}, {0, side * (half + cut)}};
+  if (depth > 0) corners.emplace_back(depth, side * half);
+  if (depth < door.wall_m) corners.emplace_back(door.wall_m, side * half);
+  corners.emplace_back(door.wall_m, side * outer_m);
+  if (side < 0) std::reverse(corners.begin(), corners.end());
+  return corners;
+}
+
+}  // namespace
+
+TestScene room_with_door(const Bottleneck& door) {
+  constexpr double kWall = 1;           // m
+  constexpr double kMaxDensity = 2.5;   // 1/m^2, before people move
+  constexpr double kAsideM = 0.1;       // at random
+  const double side = door.room_m / 2;
+  const double length =
+      std::max(10.0, static_cast<double>(door.people) / (kMaxDensity * door.room_m));
+  const double outer = side + kWall;
   TestScene scene;
-  scene.walls = {box(-10 - kWall, -5 - kWall, 0, -5), box(-10 - kWall, 5, 0, 5 + kWall),
-                 box(-10 - kWall, -5, -10, 5), box(0, -5 - kWall, door.wall_m, -half),
-                 box(0, half, door.wall_m, 5 + kWall)};
+  scene.walls = {box(-length - kWall, -outer, 0, -side), box(-length - kWall, side, 0, outer),
+                 box(-length - kWall, -side, -length, side), jamb(door, outer, -1),
+                 jamb(door, outer, 1)};
   Group group;
-  group.places = lattice({-9.5, -4.75}, {-0.5, 4.75}, door.people);
-  group.aside_m = 0.1;
+  const double reach = side - 0.25;
+  group.places = lattice({-length + 0.5, -reach}, {-0.5, reach}, door.people);
+  group.aside_m = kAsideM;
   scene.groups = {group};
   const double beyond = door.wall_m + 6;
   scene.behavior.goal_box(0, beyond, -2, beyond + 2, 2).walk_to(0).leave_at_goal();

@@ -30,13 +30,19 @@ double mean_ring_speed(crowd::Simulation& crowd, double from_s, double until_s);
 DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t seed,
                           Ring corridor = {});
 
-/// A room of 10 m x 10 m with a door in the middle of a wall.
+/// A room with a door in the middle of a wall. The room is 10 m long, or longer where people would
+/// stand closer than 2.5 per square meter.
 struct Bottleneck {
   /// Width of the door.
   double width_m = 1;
   /// Thickness of the wall.
   double wall_m = 0.2;
   std::size_t people = 150;
+  /// Width of the room; at least that of the door.
+  double room_m = 10;
+  /// How far the corners of the door are cut on the side of the room, along the wall (at most all of
+  /// it) and along the passage (at most its length).
+  double corner_cut_m = 0;
 };
 
 TestScene room_with_door(const Bottleneck& door);

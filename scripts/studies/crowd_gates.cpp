@@ -8,6 +8,7 @@
 // - fd_DENSITY: specific flow in a ring 3 m wide, 1/(m s)
 // - ring_WIDTH_DENSITY: the same in a ring of another width
 // - door_WIDTH: specific flow through a door, 1/(m s)
+// - geometry_WIDTH_DEPTH_ROOM_CUT: people per second through such a door
 // - straight_WIDTH, corner_WIDTH, corner_thin_WIDTH: specific flow out of a corridor that is
 // straight
 //   or has a turn around a block or thin walls, 1/(m s); with _queued before WIDTH: of people who
@@ -84,6 +85,22 @@ void add_flows(std::vector<Gate>& all) {
                  }});
 }
 
+void add_geometries(std::vector<Gate>& all) {
+  for (const double width : {0.5, 0.7, 0.8, 1.0, 1.2}) {
+    for (const double depth : {0.1, 0.4, 1.1}) {
+      for (const double room : {1.8, 2.4, 5.6}) {
+        for (const double cut : {0.0, 0.05, 0.15, 0.3}) {
+          all.push_back({fmt::format("geometry_{}_{}_{}_{}", width, depth, room, cut),
+                         [=](const Tested& t, std::uint64_t seed) {
+                           const Bottleneck door{width, depth, 75, room, cut};
+                           return Numbers{width * specific_flow(t, door, seed)};
+                         }});
+        }
+      }
+    }
+  }
+}
+
 void add_encounters(std::vector<Gate>& all) {
   for (const double density : {0.5, 1.0}) {
     all.push_back(
@@ -152,6 +169,7 @@ Command read(std::span<char* const> words) {
 void run(const Command& command) {
   std::vector<Gate> gates;
   add_flows(gates);
+  add_geometries(gates);
   add_encounters(gates);
   std::erase_if(gates, [&](const Gate& gate) {
     return !command.only.empty() &&
