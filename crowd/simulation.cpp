@@ -95,6 +95,8 @@ void Simulation::State::sub_step() {
   if (bodies) bodies->lie(crowd);
   grid.build(crowd.agents);
   model->step(crowd, grid, new_velocity);
+  const std::span<const float> breadths = model->breadths();
+  std::copy(breadths.begin(), breadths.end(), crowd.agents.breadth.begin());
   if (bodies) {
     bodies->react(crowd, grid, new_velocity);
     falls.insert(falls.end(), bodies->falls().begin(), bodies->falls().end());
@@ -161,8 +163,11 @@ std::span<const float> Simulation::desired_speeds_mps() const {
   return state_->crowd.agents[Property::pref_speed];
 }
 
-std::span<const float> Simulation::radii_m() const {
-  return state_->crowd.agents[Property::radius];
+std::vector<float> Simulation::radii_m() const {
+  const Agents& agents = state_->crowd.agents;
+  std::vector<float> radii = agents[Property::radius];
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] *= agents.breadth[i];
+  return radii;
 }
 
 std::span<const std::uint8_t> Simulation::states() const { return state_->crowd.agents.state; }

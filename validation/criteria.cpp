@@ -12,6 +12,8 @@ namespace throng::validation::criteria {
 
 namespace {
 
+constexpr double kMaxStuck = 0.02;  // share of people who get nowhere
+
 double compute_mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -189,6 +191,21 @@ Verdict specific_flows(const std::vector<double>& flows) {
   return {inside, listed(flows) + " /(m s)"};
 }
 
+Verdict drawn_doors(const std::vector<DoorFlows>& doors) {
+  bool passed = true;
+  std::string measured;
+  double narrower = 0;
+  for (const DoorFlows& door : doors) {
+    const double middle = (door.least_per_s + door.greatest_per_s) / 2;
+    const double apart = middle > 0 ? door.greatest_per_s / middle - 1 : 1;
+    passed = passed && apart <= 0.15 && middle > narrower;
+    narrower = middle;
+    measured +=
+        fmt::format("{}{:.2f} /s ± {:.0f} %", measured.empty() ? "" : ", ", middle, 100 * apart);
+  }
+  return {passed, measured};
+}
+
 Verdict exit_flow(const std::vector<ExitRun>& runs) {
   double flow = 0;
   bool all_out = true;
@@ -205,7 +222,7 @@ Verdict capacity_drop(double peak, double dense, double packed) {
 }
 
 Verdict open_square(double half_density, double full_density) {
-  return {half_density <= 0.05 && full_density <= 0.05,
+  return {half_density <= kMaxStuck && full_density <= kMaxStuck,
           fmt::format("{:.0f} %, {:.0f} %", 100 * half_density, 100 * full_density)};
 }
 
@@ -222,8 +239,13 @@ Verdict counter_flow(const CounterRun& alone, const std::vector<CounterRun>& aga
 
 Verdict two_way(const std::vector<TwoWayRun>& runs, double each) {
   double out = std::numeric_limits<double>::infinity();
-  for (const TwoWayRun& run : runs) out = std::min({out, run.there, run.back});
-  return {out >= 0.75 * each, fmt::format("{:.2f} /(m s)", out)};
+  double stuck = 0;
+  for (const TwoWayRun& run : runs) {
+    out = std::min({out, run.there, run.back});
+    stuck = std::max(stuck, run.stuck);
+  }
+  return {out >= 0.75 * each && stuck <= kMaxStuck,
+          fmt::format("{:.2f} /(m s), {:.0f} % stuck", out, 100 * stuck)};
 }
 
 Verdict corner_flow(const std::vector<CornerFlow>& flows) {

@@ -83,15 +83,23 @@ Verdict congested_entrance(double door_density, double corridor_density, bool al
 Verdict weidmann_diagram(const std::vector<DensitySpeed>& measured);
 /// Doors and passages: specific flows are 1.2 to 2.3 1/(m s).
 Verdict specific_flows(const std::vector<double>& flows);
+/// Flows of a door (1/s) over the shapes in which it is drawn.
+struct DoorFlows {
+  double least_per_s = 0;
+  double greatest_per_s = 0;
+};
+/// Flows of each door, by increasing width, are within 15 % of their middle, which grows with
+/// width.
+Verdict drawn_doors(const std::vector<DoorFlows>& doors);
 /// IMO 4: flow is at most 1.33 1/s in each run.
 Verdict exit_flow(const std::vector<ExitRun>& runs);
 /// Flows in 1/(m s): at 3 1/m^2 at most 70 % of the peak, at 5.5 1/m^2 below 0.5.
 Verdict capacity_drop(double peak, double dense, double packed);
-/// Shares of people who are stuck, at 0.5 and 1 1/m^2: at most 5 %.
+/// Shares of people who are stuck, at 0.5 and 1 1/m^2: at most 2 %.
 Verdict open_square(double half_density, double full_density);
 /// All get across, in at most 2.5 times the time without counter-flow.
 Verdict counter_flow(const CounterRun& alone, const std::vector<CounterRun>& against);
-/// The outflow is at least 75 % of the inflow `each` (1/(m s)).
+/// The outflow is at least 75 % of the inflow `each` (1/(m s)), and at most 2 % are stuck.
 Verdict two_way(const std::vector<TwoWayRun>& runs, double each);
 /// Flows of a straight corridor, and of corridors with a turn around a block and around thin walls
 /// (1/(m s)).

@@ -112,9 +112,9 @@ Polygon jamb(const Bottleneck& door, double outer_m, double side) {
 }  // namespace
 
 TestScene room_with_door(const Bottleneck& door) {
-  constexpr double kWall = 1;           // m
-  constexpr double kMaxDensity = 2.5;   // 1/m^2, before people move
-  constexpr double kAsideM = 0.1;       // at random
+  constexpr double kWall = 1;          // m
+  constexpr double kMaxDensity = 2.5;  // 1/m^2, before people move
+  constexpr double kAsideM = 0.1;      // at random
   const double side = door.room_m / 2;
   const double length =
       std::max(10.0, static_cast<double>(door.people) / (kMaxDensity * door.room_m));

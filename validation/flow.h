@@ -40,8 +40,8 @@ struct Bottleneck {
   std::size_t people = 150;
   /// Width of the room; at least that of the door.
   double room_m = 10;
-  /// How far the corners of the door are cut on the side of the room, along the wall (at most all of
-  /// it) and along the passage (at most its length).
+  /// How far the corners of the door are cut on the side of the room, along the wall (at most all
+  /// of it) and along the passage (at most its length).
   double corner_cut_m = 0;
 };
 

@@ -19,6 +19,32 @@ using Eigen::Vector2f;
 
 namespace {
 
+constexpr double kStuckS = 10;
+
+/// The places of people, for telling later who has got nowhere.
+class Places {
+ public:
+  explicit Places(const crowd::Simulation& crowd)
+      : present_(crowd.present().begin(), crowd.present().end()),
+        places_(crowd.positions().begin(), crowd.positions().end()) {}
+
+  /// The share of those who are still there that are less than 1 m away from their place.
+  double share_stuck(const crowd::Simulation& crowd) const {
+    std::size_t stuck = 0;
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (present_[i] == 0 || crowd.present()[i] == 0) continue;
+      ++all;
+      stuck += (crowd.positions()[i] - places_[i]).norm() < 1 ? 1 : 0;
+    }
+    return all == 0 ? 0 : static_cast<double>(stuck) / static_cast<double>(all);
+  }
+
+ private:
+  std::vector<std::uint8_t> present_;
+  std::vector<Vector2f> places_;
+};
+
 /// Steps, and calls act(agent) for those who have left.
 class Leavers {
  public:
@@ -94,25 +120,24 @@ TestScene square_scene(double density) {
 
 SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed) {
   crowd::Simulation crowd = load(square_scene(density), tested, seed);
-  while (crowd.time_s() < 110) crowd.step();
-  const std::vector<Vector2f> before(crowd.positions().begin(), crowd.positions().end());
+  constexpr double kEndS = 120;
+  while (crowd.time_s() < kEndS - kStuckS) crowd.step();
+  const Places before(crowd);
+  const std::size_t people = crowd.agent_count();
   double speed = 0;
   double accel_sq = 0;
   std::size_t samples = 0;
   std::vector<Vector2f> v(crowd.velocities().begin(), crowd.velocities().end());
-  while (crowd.time_s() < 120) {
+  while (crowd.time_s() < kEndS) {
     crowd.step();
-    for (std::size_t i = 0; i < before.size(); ++i, ++samples) {
+    for (std::size_t i = 0; i < people; ++i, ++samples) {
       speed += crowd.velocities()[i].norm();
       accel_sq += ((crowd.velocities()[i] - v[i]) / 0.1F).squaredNorm();
     }
     v.assign(crowd.velocities().begin(), crowd.velocities().end());
   }
-  std::size_t stuck = 0;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    stuck += (crowd.positions()[i] - before[i]).norm() < 1 ? 1 : 0;
-  return {static_cast<double>(stuck) / static_cast<double>(before.size()),
-          speed / static_cast<double>(samples), std::sqrt(accel_sq / static_cast<double>(samples))};
+  return {before.share_stuck(crowd), speed / static_cast<double>(samples),
+          std::sqrt(accel_sq / static_cast<double>(samples))};
 }
 
 TestScene two_rooms(std::size_t others) {
@@ -146,7 +171,9 @@ CounterRun pass_corridor(const Tested& tested, std::size_t others, std::uint64_t
 TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) {
   TestScene scene;
   scene.walls = {box(-30, -3, 30, -2), box(-30, 2, 30, 3)};
-  const auto people = static_cast<std::size_t>(each * 4 * 180);
+  constexpr double kBeginS = 60;
+  constexpr double kEndS = 600;
+  const auto people = static_cast<std::size_t>(each * 4 * kEndS);
   for (const bool there : {true, false}) {
     Group group;
     const double x = there ? -16 : 16;
@@ -156,7 +183,7 @@ TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) 
     }
     group.state = there ? "There" : "Back";
     group.more = {describe::typed(
-        "Arrivals", "rate", {{"per_second", each * 4}, {"end", 180}, {"process", "poisson"}})};
+        "Arrivals", "rate", {{"per_second", each * 4}, {"end", kEndS}, {"process", "poisson"}})};
     scene.groups.push_back(group);
   }
   scene.behavior.goal_box(0, 20, -2, 24, 2)
@@ -165,14 +192,16 @@ TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) 
       .walk_to(1, "Back")
       .leave_at_goal("There,Back");
   crowd::Simulation crowd = load(scene, tested, seed);
-  while (crowd.time_s() < 60) crowd.step();
+  while (crowd.time_s() < kBeginS) crowd.step();
   std::array<std::size_t, 2> out{};
   Leavers leavers(crowd);
-  while (crowd.time_s() < 180) {
-    leavers.step([&](std::size_t agent) { ++out[agent < people ? 0 : 1]; });
-  }
-  constexpr double kMeterSeconds = 4 * 120;
-  return {static_cast<double>(out[0]) / kMeterSeconds, static_cast<double>(out[1]) / kMeterSeconds};
+  const auto count = [&](std::size_t agent) { ++out[agent < people ? 0 : 1]; };
+  while (crowd.time_s() < kEndS - kStuckS) leavers.step(count);
+  const Places before(crowd);
+  while (crowd.time_s() < kEndS) leavers.step(count);
+  constexpr double kMeterSeconds = 4 * (kEndS - kBeginS);
+  return {static_cast<double>(out[0]) / kMeterSeconds, static_cast<double>(out[1]) / kMeterSeconds,
+          before.share_stuck(crowd)};
 }
 
 double corridor_flow(const Tested& tested, const Passage& passage, std::uint64_t seed) {

@@ -42,8 +42,9 @@ struct CounterRun {
 CounterRun pass_corridor(const Tested& tested, std::size_t others, std::uint64_t seed);
 
 struct TwoWayRun {
-  double there = 0;  ///< flow (1/(m s)) of those who walk in one direction; mean from 60 to 180 s
+  double there = 0;  ///< flow (1/(m s)) of those who walk in one direction; mean from 60 to 600 s
   double back = 0;   ///< flow (1/(m s)) of the others
+  double stuck = 0;  ///< share of people who get less than 1 m far from 590 to 600 s
 };
 /// Simulates a corridor 4 m wide that `each` people per meter and second enter at both ends.
 TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed);

@@ -9,6 +9,7 @@ void Agents::resize(std::size_t count, std::size_t model_parameter_count) {
   panicked.resize(count, 0);
   fallen.resize(count, 0);
   social_group.resize(count, -1);
+  breadth.resize(count, 1);
   position.resize(count, zero);
   velocity.resize(count, zero);
   orientation.resize(count, Eigen::Vector2f::UnitX());

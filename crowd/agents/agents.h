@@ -74,6 +74,8 @@ struct Agents {
   std::vector<std::uint8_t> panicked;
   std::vector<std::uint8_t> fallen;          ///< 1: lies on the ground, see Bodies
   std::vector<std::int32_t> social_group;    ///< index into Crowd::social_groups; -1: alone
+  /// Share of the radius that the body takes now; below 1 where shoulders are turned.
+  std::vector<float> breadth;
   std::vector<Eigen::Vector2f> position;     ///< m
   std::vector<Eigen::Vector2f> velocity;     ///< m/s
   std::vector<Eigen::Vector2f> orientation;  ///< unit

@@ -15,10 +15,10 @@ Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const AgentView& aro
   view.direction = crowd.agents.preferred_direction[id];
   view.free_speed = crowd.agents[Property::pref_speed][id];
   view.reach_sq = known_reach_sq(crowd, around, spec_.reach_m);
-  const float file = around.walls.empty() ? 0
-                                          : singleness(crowd, grid, around,
-                                                       {kOneRadii * grid.radius(around.slot),
-                                                        kPassingRadii * grid.radius(around.slot)});
+  const PassingRoom room{kOneRadii * grid.radius(around.slot),
+                         kPassingRadii * grid.radius(around.slot)};
+  const float file =
+      around.walls.empty() ? 0 : room.singleness(passage_width_m(crowd, grid, around, room.two_m));
   if (file > 0 && view.free_speed > 0) {
     const float share =
         std::clamp(gap_ahead_m(crowd, grid, around) / (spec_.headway_s * view.free_speed),

@@ -9,17 +9,20 @@
 
 namespace throng::crowd {
 
-float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around,
-                 const PassingRoom& room) {
+float PassingRoom::singleness(float width_m) const {
+  return std::clamp((two_m - width_m) / (two_m - one_m), 0.0F, 1.0F);
+}
+
+float passage_width_m(const Crowd& crowd, const Grid& grid, const AgentView& around,
+                      float reach_m) {
   constexpr float kBeside = 0.7F;  // sine of the least angle between the way and what is beside it
-  const float reach = room.two_m;
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
   const std::vector<Segment>& segments = crowd.obstacles.segments();
-  float left = reach;
-  float right = reach;
+  float left = reach_m;
+  float right = reach_m;
   for (const Obstacles::Near& near : around.walls) {
-    if (near.distance_sq >= reach * reach) break;
+    if (near.distance_sq >= reach_m * reach_m) break;
     const Segment& wall = segments[near.segment];
     const Eigen::Vector2f offset =
         geometry::nearest_on_segment(wall.begin, wall.end, position) - position;
@@ -29,11 +32,31 @@ float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around,
     float& beside = side > 0 ? left : right;
     beside = std::min(beside, distance);
   }
-  return std::clamp((reach - left - right) / (reach - room.one_m), 0.0F, 1.0F);
+  return left + right;
+}
+
+float passage_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around,
+                      float reach_m) {
+  const Eigen::Vector2f& position = grid.position(around.slot);
+  const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
+  const std::vector<Segment>& segments = crowd.obstacles.segments();
+  float left = 0;
+  float right = 0;
+  for (const Obstacles::Near& near : around.walls) {
+    const Segment& wall = segments[near.segment];
+    for (const Eigen::Vector2f& end : {wall.begin, wall.end}) {
+      const Eigen::Vector2f offset = end - position;
+      const float side = geometry::cross(direction, offset);
+      if (std::abs(side) > reach_m) continue;
+      float& ahead = side > 0 ? left : right;
+      ahead = std::max(ahead, direction.dot(offset));
+    }
+  }
+  return (left + right) / 2;
 }
 
 float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around,
-                  std::span<const float> file, float foresight_s) {
+                  float foresight_s) {
   constexpr float kLane = 0.5F;  // of where two touch: farther aside one zips in
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
@@ -45,7 +68,6 @@ float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around,
     const float touch = grid.radius(around.slot) + grid.radius(other.slot);
     if (along <= 0 || std::abs(aside) >= kLane * touch) continue;
     if (crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction) < kOncoming) continue;
-    if (!file.empty() && file[grid.id(other.slot)] <= 0.5F) continue;
     const float faster = direction.dot(grid.velocity(other.slot) - grid.velocity(around.slot));
     gap = std::min(gap, along - std::sqrt(touch * touch - aside * aside) + foresight_s * faster);
   }

@@ -11,6 +11,7 @@
 #include "crowd/models/orca_lines.h"
 #include "crowd/models/single_file.h"
 #include "crowd/models/ttc_lanes.h"
+#include "crowd/models/turned_shoulders.h"
 
 namespace throng::embedded {
 extern const std::string_view kTtcPosterior;
@@ -38,12 +39,21 @@ enum Constant : std::size_t {
   spread,
   max_spread,
   clearance,
-  headway
+  headway,
+  door_headway,
+  turned_breadth,
+  relief
 };
 
 constexpr float kWallReachM = 0.5F;     // walls farther away from the body do not push
 constexpr float kWallHorizonS = 0.15F;  // how long moves stay free of walls
 constexpr PassingRoom kRoom;
+/// In doors people follow closely and pass the one ahead at once; passages this far ahead are
+/// corridors.
+constexpr PassingRoom kDoorRoom{0.5F, 0.9F};
+constexpr PassingRoom kNarrow{0.9F, 1.5F};  // ground behind the walls of such doors is not taken
+constexpr float kDoorM = 1.4F;
+constexpr float kCorridorM = 2.0F;
 constexpr float kCreep = 0.05F;  // of the free speed, in single file without a gap
 
 /// People who stand before a wall that is straight on their way (a column) pass along it.
@@ -62,7 +72,7 @@ TtcConstants read_constants(const std::vector<float>& c) {
   return {c[strength],   c[horizon],   c[relaxation],      c[reach],      c[half_density],
           c[steepness],  c[jam_share], c[jam_decline],     c[perception], c[foresight],
           c[alongside],  c[caution],   c[caution_density], c[keep_right], c[spread],
-          c[max_spread], c[clearance]};
+          c[max_spread], c[clearance], c[relief]};
 }
 
 /// Buffers of one thread; made by its first batch, since copies of vectors lose reserved memory.
@@ -96,20 +106,21 @@ class TimeToCollision : public Model {
   explicit TimeToCollision(const Crowd& crowd)
       : constants_(read_constants(crowd.model_constants)),
         headway_s_(crowd.model_constants[headway]),
+        door_headway_s_(crowd.model_constants[door_headway]),
         neighborhood_(crowd),
         solve_(TtcBatch::pick(crowd.instruction_set)),
         workspaces_(Workspace{}),
         at_wall_s_(crowd.agents.count(), 0.0F),
         passes_wall_(crowd.agents.count(), 0),
         perceived_(crowd.agents.count(), 0.0F),
-        file_now_(crowd.agents.count(), 0.0F),
-        file_before_(crowd.agents.count(), 0.0F) {}
+        shoulders_(crowd.agents.count(), crowd.model_constants[turned_breadth]) {}
+
+  std::span<const float> breadths() const override { return shoulders_.breadths(); }
 
   void step(const Crowd& crowd, const Grid& grid,
             std::span<Eigen::Vector2f> new_velocity) override {
     neighborhood_.prepare(crowd, grid);
     workspaces_.prepare();
-    std::swap(file_now_, file_before_);
     sort_intents(crowd, grid);
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Workspace& work = workspaces_.local();
@@ -152,6 +163,8 @@ class TimeToCollision : public Model {
       const std::size_t lane = slot - begin;
       const std::size_t id = grid.id(slot);
       perceived_[id] = work.batch.perceived_per_m2(lane);
+      const float progress = crowd.agents.velocity[id].dot(crowd.agents.preferred_direction[id]);
+      shoulders_.update(id, progress, work.batch.wished_mps(lane), static_cast<float>(crowd.dt_s));
       new_velocity[id] =
           possible_velocity(crowd, id, kept_off_walls(crowd, grid, slot, lane, work));
       count_time_at_wall(crowd, grid, slot, new_velocity[id],
@@ -213,8 +226,16 @@ class TimeToCollision : public Model {
     constexpr float kMinReachSq = 0.01F;  // m^2: people at one position have no density
     const float reach_sq = std::max(kMinReachSq, known_reach_sq(crowd, around, constants_.reach_m));
     const float free_mps = agents[Property::pref_speed][id];
-    work.batch.add({around.slot, around.neighbors, reach_sq, free_mps, agents.preferred_speed[id],
-                    file_share(crowd, grid, around, free_mps), perceived_[id]});
+    const Passage passage = passage_around(crowd, grid, around, free_mps);
+    work.batch.add({.slot = around.slot,
+                    .neighbors = around.neighbors,
+                    .reach_sq_m2 = reach_sq,
+                    .free_mps = free_mps,
+                    .max_mps = agents.preferred_speed[id],
+                    .max_share = passage.max_share,
+                    .enclosure = passage.enclosure,
+                    .care = 1 - shoulders_.turned(id),
+                    .perceived_per_m2 = perceived_[id]});
     if (around.walls.empty()) return;
     const Eigen::Vector2f& position = grid.position(around.slot);
     const float radius = grid.radius(around.slot);
@@ -260,28 +281,43 @@ class TimeToCollision : public Model {
                          crowd.agents[Property::max_speed][grid.id(slot)], work.scratch);
   }
 
-  /// The share of the free speed in single file, where speed is at most the gap to the agent ahead
-  /// divided by the headway (Seyfried et al. 2005, J. Stat. Mech. P10002).
-  float file_share(const Crowd& crowd, const Grid& grid, const AgentView& around, float free_mps) {
-    const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around, kRoom);
-    file_now_[around.agent] = file;
-    if (file <= 0 || free_mps <= 0) return 1;
-    const float gap = gap_ahead_m(crowd, grid, around, file_before_, constants_.foresight_s) /
-                      (headway_s_ * free_mps);
-    return 1 - file * (1 - std::clamp(gap, kCreep, 1.0F));
+  /// What the walls beside an agent do to it.
+  struct Passage {
+    float max_share = 1;  ///< of the free speed, where there is room for one only
+    float enclosure = 1;  ///< how much the ground behind the walls counts as taken
+  };
+
+  /// In single file, speed is at most the gap to the agent ahead divided by the headway (Seyfried
+  /// et al. 2005, J. Stat. Mech. P10002). Doors are not corridors: people see the open ground
+  /// behind.
+  Passage passage_around(const Crowd& crowd, const Grid& grid, const AgentView& around,
+                         float free_mps) const {
+    if (around.walls.empty()) return {};
+    const float width_m = passage_width_m(crowd, grid, around, kNarrow.two_m);
+    const float ahead_m = passage_ahead_m(crowd, grid, around, constants_.reach_m);
+    const float corridor = std::clamp((ahead_m - kDoorM) / (kCorridorM - kDoorM), 0.0F, 1.0F);
+    Passage passage;
+    passage.enclosure = 1 - kNarrow.singleness(width_m) * (1 - corridor);
+    const float headway_s = corridor * headway_s_ * kRoom.singleness(width_m) +
+                            (1 - corridor) * door_headway_s_ * kDoorRoom.singleness(width_m);
+    if (headway_s > 0 && free_mps > 0) {
+      const float gap_m = gap_ahead_m(crowd, grid, around, constants_.foresight_s);
+      passage.max_share = std::clamp(gap_m / (headway_s * free_mps), kCreep, 1.0F);
+    }
+    return passage;
   }
 
   TtcConstants constants_;
   float headway_s_;
+  float door_headway_s_;
   Neighborhood neighborhood_;
   TtcBatch::Solve* solve_;
   std::vector<Intent> intents_;  // by slot of the grid
   PerThread<Workspace> workspaces_;
   std::vector<float> at_wall_s_;  // by agent: standing before a wall, then passing along it
   std::vector<std::uint8_t> passes_wall_;  // by agent
-  std::vector<float> perceived_;    // density of people who walk the same way, by agent, 1/m^2
-  std::vector<float> file_now_;     // by agent: 1 if there is room for one only
-  std::vector<float> file_before_;  // in the step before
+  std::vector<float> perceived_;  // density of people who walk the same way, by agent, 1/m^2
+  TurnedShoulders shoulders_;
 };
 
 std::unique_ptr<Model> make_ttc(const Crowd& crowd) {
@@ -310,7 +346,7 @@ ModelEntry ttc_model() {
         "times exp(-density / jam_decline): share of the free speed that is left in a jam"},
        {"jam_decline", 2.21F, 0.1F, 100, "density over which that falls to 1/e, per m^2"},
        {"perception", 0.43F, 0.01F, 100, "over which density is averaged, in s"},
-       {"foresight", 0.38F, 0, 10, "how far ahead people know where others will be, in s"},
+       {"foresight", 0.42F, 0, 10, "how far ahead people know where others will be, in s"},
        {"alongside", 0.72F, 0, 1, "share of the avoidance of those who walk the same way"},
        {"caution", 0.12F, 0, 1, "share of the free speed that is lost among oncoming people"},
        {"caution_density", 0.0296F, 1e-3F, 100, "density over which that comes about, per m^2"},
@@ -320,12 +356,18 @@ ModelEntry ttc_model() {
        {"max_spread", 0.45F, 0, 1, "how far one turns to that side at most, in rad"},
        {"clearance", 0.11F, 0, 2,
         "distance that people who come towards each other keep when they pass, in m"},
-       {"headway", 1.15F, 0.01F, 100, "time to the one ahead in single file, in s"}},
+       {"headway", 1.2F, 0.01F, 100, "time to the one ahead in single file, in s"},
+       {"door_headway", 1.0F, 0, 100, "the same in doors where there is room for one only, in s"},
+       {"turned_breadth", 0.7F, 0.4F, 1,
+        "share of the radius of people who turn their shoulders since they get no further"},
+       {"relief", 0.95F, 0, 1,
+        "share of the density of people who walk the same way that does not count among oncoming "
+        "people"}},
       make_ttc,
       {},
       true,
       embedded::kTtcPosterior,
-      {{"half_density", 0.85F}}};
+      {{"half_density", 0.65F}, {"foresight", 0.2F}, {"door_headway", 2.0F}}};
 }
 
 }  // namespace throng::crowd

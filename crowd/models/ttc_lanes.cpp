@@ -29,7 +29,9 @@ constexpr float kShuffleMps = 0.1F;  // forces make nobody faster than this or t
 /// How fast one steps back at most, per person and m^2 of those who do not walk the same way.
 constexpr float kStepBack = 4;     // m^3/s
 constexpr float kDense = 0.6F;     // 1/m^2: nobody keeps a distance to oncoming people
-constexpr float kMinFree = 0.25F;  // of the kernel of the density is never taken for walls
+constexpr float kMinFree = 0.45F;  // of the kernel of the density is never taken for walls
+/// Density of oncoming people (1/m^2) at which that of people who walk the same way counts less.
+constexpr float kReliefDensity = 0.03F;
 
 template <int kWidth>
 using FloatOf = typename Vectors<kWidth>::Float;
@@ -55,6 +57,8 @@ void TtcBatch::add(const View& view) {
   free_mps_[lane] = view.free_mps;
   max_mps_[lane] = view.max_mps;
   max_share_[lane] = view.max_share;
+  enclosure_[lane] = view.enclosure;
+  care_[lane] = view.care;
   perceived_[lane] = view.perceived_per_m2;
 }
 
@@ -110,6 +114,7 @@ struct TtcKernel {
     share =
         smaller(share, 1 - c.caution * (1 - exponential(-self.opposed / c.caution_density_per_m2)));
     const Float speed = smaller(load<kWidth>(&batch.max_mps_[first]), share * free_mps);
+    store(speed, &batch.wished_mps_[first]);
     integrate<kWidth>(setting, first, self, speed, batch);
   }
 
@@ -141,7 +146,6 @@ struct TtcKernel {
   template <int kWidth>
   struct Sums {
     FloatOf<kWidth> near{};  // without the direction
-    FloatOf<kWidth> aligned{};
     FloatOf<kWidth> all{};
     FloatOf<kWidth> same{};
     FloatOf<kWidth> left{};
@@ -225,7 +229,6 @@ struct TtcKernel {
     // People who stand do not walk the same way.
     const Float counts = weight * with * other.walks;
     sums.near += near;
-    sums.aligned += near * clamped<Float>(0.5F + 2.5F * other.cosine, 0, 1);
     sums.all += weight;
     sums.same += counts;
     sums.left += counts * aside;
@@ -249,17 +252,17 @@ struct TtcKernel {
     const Float open_unit = (16 / (3 * kPi)) / square;
     Float free_left{};
     const Float unit = open_unit / free_shares<kWidth>(first, self, reach_sq, batch, free_left);
-    // In crossing and opposite flows gaps open and close: the diagram is one of people who walk
-    // the same way.
-    const Float order = sums.aligned / greater(sums.near, Float{} + 1e-6F);
-    self.same = order * order * sums.same * unit;
-    self.left = sums.left * open_unit - sums.same * unit * free_left;
+    self.same = sums.same * unit;
+    self.left = sums.left * open_unit - self.same * free_left;
     self.others = greater(sums.all * unit - self.same, Float{});
     // Nobody keeps a distance in a dense crowd.
     const Float around = sums.near * (2 / kPi) / square;
     self.clearance = c.clearance_m * greater(1 - around / kDense, Float{});
     self.oncoming = sums.oncoming * 2 / square;
     self.opposed = sums.opposed * (2 / kPi) / square;
+    // Among oncoming people gaps open and close: flow does not fall with density, as it does where
+    // everybody walks the same way (Zhang et al. 2012, J. Stat. Mech. P02002).
+    self.same *= 1 - c.relief * (1 - exponential(-self.opposed / kReliefDensity));
   }
 
   template <int kWidth>
@@ -297,7 +300,8 @@ struct TtcKernel {
       if (first + static_cast<std::size_t>(i) >= batch.agents_.size() || segments.empty()) continue;
       const FreeGround free = free_ground<kWidth>(segments, self.direction_x[i],
                                                   self.direction_y[i], std::sqrt(reach_sq[i]));
-      shares[i] = std::max(kMinFree, free.share);
+      const float enclosure = batch.enclosure_[first + static_cast<std::size_t>(i)];
+      shares[i] = std::max(kMinFree, 1 - enclosure * (1 - free.share));
       free_left[i] = free.left;
     }
     return shares;
@@ -431,6 +435,7 @@ struct TtcKernel {
     const Float own_y = motion.moved_y - motion.time_s * self.disc.vy;
     const Float change_x = motion.vx - self.disc.vx;
     const Float change_y = motion.vy - self.disc.vy;
+    const Float care = load<kWidth>(&batch.care_[first]);
     for (std::size_t i = 0; i < batch.agents_.rows(); ++i) {
       const auto there = self.count > static_cast<float>(i);
       const TtcBatch::Row& row = batch.rows_[i];
@@ -475,7 +480,7 @@ struct TtcKernel {
       const Float smooth = greater(root, kGrazing * square_root<kWidth>(some));
       const auto unseen = self.direction_x * away_x + self.direction_y * away_y > -kView;
       const Float weight =
-          load<kWidth>(&row.weight[first]) * (unseen ? Float{} + kBehind : Float{} + 1);
+          care * load<kWidth>(&row.weight[first]) * (unseen ? Float{} + kBehind : Float{} + 1);
       const Float scale = soon ? weight * slope / some : Float{};
       force_x += scale * ((b * rx + a * x) / smooth - rx);
       force_y += scale * ((b * ry + a * y) / smooth - ry);

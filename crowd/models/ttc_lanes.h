@@ -31,6 +31,7 @@ struct TtcConstants {
   float spread_m2 = 0;
   float max_spread = 0;
   float clearance_m = 0;
+  float relief = 0;
 };
 
 /// The part of an agent's state besides its body that neighbors see; kernels load it as four
@@ -54,6 +55,8 @@ class TtcBatch {
     float free_mps = 0;     ///< free speed
     float max_mps = 0;      ///< preferred speed now
     float max_share = 1;    ///< of the free speed, where there is room for one only
+    float enclosure = 1;    ///< how much the ground behind walls counts as taken, 0 to 1
+    float care = 1;         ///< share of the avoidance that is left to those who force their way
     float perceived_per_m2 = 0;
   };
 
@@ -71,11 +74,13 @@ class TtcBatch {
   void add_wall(const Eigen::Vector2f& begin, const Eigen::Vector2f& end,
                 const Eigen::Vector2f& nearest, bool pushes);
 
-  /// Results, per lane: mean velocity of the step (m/s), density that the agent perceives.
+  /// Results, per lane: mean velocity of the step (m/s), density that the agent perceives, speed
+  /// that it would have without collisions.
   Eigen::Vector2f velocity(std::size_t lane) const {
     return {velocity_x_[lane], velocity_y_[lane]};
   }
   float perceived_per_m2(std::size_t lane) const { return perceived_[lane]; }
+  float wished_mps(std::size_t lane) const { return wished_mps_[lane]; }
 
   /// Inputs of a step besides the batch.
   struct Setting {
@@ -119,7 +124,10 @@ class TtcBatch {
   Lanes free_mps_{};
   Lanes max_mps_{};
   Lanes max_share_{};
+  Lanes enclosure_{};
+  Lanes care_{};
   Lanes perceived_{};
+  Lanes wished_mps_{};
   Lanes velocity_x_{};
   Lanes velocity_y_{};
 };

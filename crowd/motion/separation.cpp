@@ -16,7 +16,11 @@ constexpr float kStride = 0.5F;
 
 }  // namespace
 
-Separation::Separation(const Crowd& crowd) : grid_(crowd.instruction_set), walls_({}) {}
+Separation::Separation(const Crowd& crowd) : grid_(crowd.instruction_set), walls_({}) {
+  constexpr std::size_t kManyWalls = 64;  // near one agent
+  walls_.prepare();
+  walls_.local().reserve(kManyWalls);
+}
 
 void Separation::remember(const Crowd& crowd) { before_ = crowd.agents.position; }
 

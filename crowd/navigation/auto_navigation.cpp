@@ -303,15 +303,19 @@ void AutoNavigation::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   }
 }
 
-/// Goes on to the next bend where the agent is at the one before, or across the line of a corner.
-void AutoNavigation::pass_bends(const Crowd& crowd, std::size_t agent, Route& route) {
+/// Goes on to the next bend where the agent is at the one before and sees the next, or across the
+/// line of a corner. Somebody beside a door who went on too early would walk into its jamb.
+void AutoNavigation::pass_bends(const Crowd& crowd, std::size_t agent, Route& route) const {
   const Eigen::Vector2f& p = crowd.agents.position[agent];
   const float near = crowd.agents[Property::radius][agent];
   const int before = route.next;
   if (route.lane && route.next < route.lane_end && route.lane->is_passed(p)) {
     route.next = route.lane_end;
   } else if (!holds_lane(route, p)) {
-    while (route.next + 1 < route.count && (route.aim - p).squaredNorm() < near * near) {
+    const NavMesh& mesh = grounds_[static_cast<std::size_t>(route.ground)]->mesh;
+    while (route.next + 1 < route.count && (route.aim - p).squaredNorm() < near * near &&
+           mesh.is_clear(place_on(mesh, p, route.polygon),
+                         route.bends[static_cast<std::size_t>(route.next + 1)])) {
       ++route.next;
       route.aim = route.bends[static_cast<std::size_t>(route.next)];
     }

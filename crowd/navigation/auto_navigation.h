@@ -118,7 +118,7 @@ class AutoNavigation {
   void renew_fields(const Crowd& crowd);
   void reconsider(const Crowd& crowd, std::size_t agent, Route& route);
   float keeping(const Crowd& crowd, std::size_t agent) const;
-  static void pass_bends(const Crowd& crowd, std::size_t agent, Route& route);
+  void pass_bends(const Crowd& crowd, std::size_t agent, Route& route) const;
   static bool holds_lane(const Route& route, const Eigen::Vector2f& p);
   void find_lane(const Crowd& crowd, std::size_t agent, Route& route);
   void aim(const Crowd& crowd, std::size_t agent, Route& route);

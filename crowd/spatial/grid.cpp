@@ -160,7 +160,7 @@ void Grid::sort_part(const Agents& agents, std::size_t part) {
     x_[slot] = p.x();
     y_[slot] = p.y();
     body_[slot] = {p, agents.velocity[id]};
-    radius_[slot] = agents[Property::radius][id];
+    radius_[slot] = agents.breadth[id] * agents[Property::radius][id];
   }
 }
 

@@ -21,6 +21,9 @@ class Model {
   /// Writes the new velocity of every agent in the grid to new_velocity[id].
   virtual void step(const Crowd& crowd, const Grid& grid,
                     std::span<Eigen::Vector2f> new_velocity) = 0;
+
+  /// The share of its radius that each body takes after the step, by agent; empty: all of it.
+  virtual std::span<const float> breadths() const { return {}; }
 };
 
 /// A parameter or constant of a pedestrian model. A parameter is an attribute of the model's

@@ -16,7 +16,7 @@
 // - imo_4: people per second over the entire time; deepest overlap, m
 // - square_DENSITY: share of people who are stuck; speed, m/s; rms acceleration, m/s^2
 // - room_OTHERS: time of 100 people through a corridor against so many, s; people left after 600 s
-// - two_way_EACH: specific flows of both directions, 1/(m s)
+// - two_way_EACH: specific flows of both directions, 1/(m s); share of people who are stuck
 // - meet_ASIDE: time before meeting at which one goes aside, s; greatest acceleration, m/s^2
 // - queue: turns and stops per person and minute
 #include <fmt/core.h>
@@ -118,7 +118,7 @@ void add_encounters(std::vector<Gate>& all) {
   for (const double each : {0.75, 1.5}) {
     all.push_back({fmt::format("two_way_{}", each), [each](const Tested& t, std::uint64_t seed) {
                      const TwoWayRun run = walk_both_ways(t, each, seed);
-                     return Numbers{run.there, run.back};
+                     return Numbers{run.there, run.back, run.stuck};
                    }});
   }
   for (const double aside : {0.0, 0.1, 0.3}) {

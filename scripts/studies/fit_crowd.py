@@ -30,7 +30,7 @@ STUDIES = os.path.join(os.path.dirname(__file__), "..", "..", "build", "release"
 SPREAD = 0.08  # half of the width of the prior of each constant, as a share of its value
 GATES = (
     "square_1,room_100,fd_5,fd_2.9,fd_1.6,fd_1.1,meet_0.3,queue,two_way_0.75,"
-    "corner_queued_4,straight_queued_4,door_0.8,door_1.2,door_2"
+    "corner_queued_4,straight_queued_4,door_0.8,door_1.2,door_2,geometry"
 )
 SKIPPED = ("time gap", "density", "band index", "flow 1", "flow 2")  # given by arrivals, or by other quantities
 
@@ -86,10 +86,21 @@ def limit_errors(constants, seeds):
         "evasion": (above(2.05, mean["meet_0.3"][0]), 0.15),
         "acceleration": (min(0.5, above(mean["meet_0.3"][1], 0.95)), 0.1),
         "turns in a queue": (above(mean["queue"][0], 0.8), 0.5),
-        "two ways": (above(0.82, value["two_way_0.75"].min() / 0.75), 0.05),
+        "stuck in two ways": (above(value["two_way_0.75"][:, 2].max(), 0.02), 0.05),
+        "doors as drawn": (max(0.0, drawn_spread(mean) - 0.12), 0.02),
+        "two ways": (above(0.82, value["two_way_0.75"][:, :2].min() / 0.75), 0.05),
         "corner": (above(0.88, mean["corner_queued_4"][0] / mean["straight_queued_4"][0]), 0.05),
         "doors": (max(above(1.55, min(doors)), above(max(doors), 2.2)), 0.15),
     }
+
+
+def drawn_spread(mean):
+    """The greatest share by which flows of doors of one width differ from their middle."""
+    flows = {}
+    for name, values in mean.items():
+        if name.startswith("geometry_"):
+            flows.setdefault(name.split("_")[1], []).append(values[0])
+    return max((max(of_width) - min(of_width)) / (max(of_width) + min(of_width)) for of_width in flows.values())
 
 
 def errors_of(folder, constants, seeds):

@@ -260,9 +260,9 @@ TEST(CapacityDrop, WantsSeventyPercentAndAStandstill) {
 }
 
 TEST(OpenSquare, LetsFivePercentBeStuck) {
-  EXPECT_TRUE(open_square(0.05, 0.05).passed);
-  EXPECT_FALSE(open_square(0.06, 0).passed);
-  EXPECT_FALSE(open_square(0, 0.06).passed);
+  EXPECT_TRUE(open_square(0.02, 0.02).passed);
+  EXPECT_FALSE(open_square(0.03, 0).passed);
+  EXPECT_FALSE(open_square(0, 0.03).passed);
   EXPECT_EQ(open_square(0.02, 0.1).measured, "2 %, 10 %");
 }
 
@@ -278,7 +278,20 @@ TEST(TwoWay, LooksAtTheWorseDirectionOfTheWorstRun) {
   EXPECT_TRUE(two_way({{1, 0.75}, {0.8, 0.9}}, 1).passed);
   EXPECT_FALSE(two_way({{1, 0.74}, {0.8, 0.9}}, 1).passed);
   EXPECT_FALSE(two_way({{1, 1}, {0.74, 0.9}}, 1).passed);
-  EXPECT_EQ(two_way({{1, 0.9}, {0.8, 0.9}}, 1).measured, "0.80 /(m s)");
+  EXPECT_EQ(two_way({{1, 0.9, 0.01}, {0.8, 0.9}}, 1).measured, "0.80 /(m s), 1 % stuck");
+}
+
+TEST(TwoWay, AllowsTwoPercentWhoAreStuck) {
+  EXPECT_TRUE(two_way({{1, 1, 0.02}, {1, 1}}, 1).passed);
+  EXPECT_FALSE(two_way({{1, 1}, {1, 1, 0.03}}, 1).passed);
+}
+
+TEST(DrawnDoors, AreWithinFifteenPercentOfTheirMiddleAndGrow) {
+  EXPECT_TRUE(drawn_doors({{0.9, 1.1}, {1.8, 2.2}}).passed);
+  EXPECT_FALSE(drawn_doors({{0.8, 1.2}, {1.8, 2.2}}).passed);
+  EXPECT_FALSE(drawn_doors({{1.8, 2.2}, {0.9, 1.1}}).passed) << "the wider one passes fewer";
+  EXPECT_FALSE(drawn_doors({{0, 0}}).passed) << "nobody passes";
+  EXPECT_EQ(drawn_doors({{0.9, 1.1}, {1.8, 2.2}}).measured, "1.00 /s ± 10 %, 2.00 /s ± 10 %");
 }
 
 TEST(Corner, KeepsEightyFivePercent) {

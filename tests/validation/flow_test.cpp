@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "validation/floors.h"
 #include "validation/run.h"
+#include "validation/walking.h"
 
 namespace throng::validation {
 namespace {
@@ -39,6 +43,36 @@ TEST(Bottleneck, PassesMorePerSecondWhenWider) {
 
 TEST(Bottleneck, HasNoFlowWhereNobodyFits) {
   EXPECT_EQ(specific_flow({"orca"}, {0.3, 0.2, 20}, 1), 0);
+}
+
+TEST(Bottleneck, PassesAsManyWhateverItsCornersAre) {
+  for (const double width_m : {0.5, 0.8}) {
+    const double square = specific_flow({"ttc"}, {width_m, 1.1, 75, 1.8, 0}, 1);
+    const double cut = specific_flow({"ttc"}, {width_m, 1.1, 75, 1.8, 0.15}, 1);
+    EXPECT_GT(square, 1.5) << "people walk past the jambs of a door of " << width_m << " m";
+    EXPECT_GT(square, 0.8 * cut);
+    EXPECT_GT(cut, 0.8 * square);
+  }
+}
+
+TEST(Bottleneck, CutsItsCornersAsFarAsThereIsWall) {
+  // The last two walls are those beside the door.
+  const TestScene narrow = room_with_door({1.2, 0.1, 40, 1.8, 0.5});
+  for (std::size_t wall = 3; wall < 5; ++wall) {
+    for (const Eigen::Vector2d& corner : narrow.walls[wall]) {
+      EXPECT_GE(std::abs(corner.y()), 0.6) << "the door keeps its width";
+      EXPECT_GE(corner.x(), 0);
+      EXPECT_LE(corner.x(), 0.1);
+    }
+    EXPECT_EQ(narrow.walls[wall].size(), 4) << "no corner is there twice";
+  }
+  EXPECT_EQ(room_with_door({1.2, 0.4, 40, 5, 0.15}).walls[3].size(), 5);
+}
+
+TEST(TwoWayCorridor, FlowsForTenMinutes) {
+  const TwoWayRun run = walk_both_ways({"ttc"}, 0.75, 1);
+  EXPECT_LE(run.stuck, 0.02);
+  EXPECT_GT(std::min(run.there, run.back), 0.6);
 }
 
 TEST(Lattice, FillsItsBox) {

@@ -14,7 +14,7 @@ namespace {
 class Default : public testing::TestWithParam<std::string> {};
 
 /// Tests that it fails: docs/validation.md says by how much.
-const std::set<std::string> kKnownFailures = {"imo_4", "passages"};
+const std::set<std::string> kKnownFailures = {"imo_4"};
 
 TEST_P(Default, Passes) {
   const Results results = run_suite({"ttc"}, {GetParam()}, Effort::reduced, 1);
