@@ -196,8 +196,8 @@ Verdict drawn_doors(const std::vector<DoorFlows>& doors) {
   std::string measured;
   double narrower = 0;
   for (const DoorFlows& door : doors) {
-    const double middle = (door.least_per_s + door.greatest_per_s) / 2;
-    const double apart = middle > 0 ? door.greatest_per_s / middle - 1 : 1;
+    const double middle = (door.min_per_s + door.max_per_s) / 2;
+    const double apart = middle > 0 ? door.max_per_s / middle - 1 : 1;
     passed = passed && apart <= 0.15 && middle > narrower;
     narrower = middle;
     measured +=

@@ -85,8 +85,8 @@ Verdict weidmann_diagram(const std::vector<DensitySpeed>& measured);
 Verdict specific_flows(const std::vector<double>& flows);
 /// Flows of a door (1/s) over the shapes in which it is drawn.
 struct DoorFlows {
-  double least_per_s = 0;
-  double greatest_per_s = 0;
+  double min_per_s = 0;
+  double max_per_s = 0;
 };
 /// Flows of each door, by increasing width, are within 15 % of their middle, which grows with
 /// width.

@@ -53,8 +53,8 @@ criteria::DoorFlows drawn_door(const Tested& tested, double width_m, Effort effo
           sum += specific_flow(tested, {width_m, depth_m, 75, room_m, cut_m}, seed);
         }
         const double flow_per_s = width_m * sum / static_cast<double>(seeds);
-        flows.least_per_s = std::min(flows.least_per_s, flow_per_s);
-        flows.greatest_per_s = std::max(flows.greatest_per_s, flow_per_s);
+        flows.min_per_s = std::min(flows.min_per_s, flow_per_s);
+        flows.max_per_s = std::max(flows.max_per_s, flow_per_s);
       }
     }
   }

@@ -86,10 +86,17 @@ Behavior& Behavior::leave_at_goal(const std::string& states) {
   return *this;
 }
 
+std::string title(const Tested& tested) {
+  if (tested.choice == crowd::ConstantsChoice::best) return tested.model;
+  return fmt::format("{} ({})", tested.model,
+                     crowd::kConstantsWords.at(static_cast<std::size_t>(tested.choice)));
+}
+
 crowd::Simulation load(const TestScene& scene, const Tested& tested, std::uint64_t seed) {
   crowd::LoadOptions options;
   options.seed = seed;
   options.model = tested.model;
+  options.constants = tested.choice;
   options.sub_steps = is_by_velocity(tested.model) ? 0 : 4;
   crowd::BehaviorDescription behavior = scene.behavior.build();
   behavior.files = scene.files;

@@ -60,7 +60,11 @@ struct Tested {
   std::string model;
   std::vector<crowd::Node> constants = {};  ///< element with constants for the scene; may be empty
   std::vector<crowd::Node> profile = {};  ///< element with parameters for the profile; may be empty
+  crowd::ConstantsChoice choice = crowd::ConstantsChoice::best;
 };
+
+/// Returns the model's name, with the choice of its constants if that is not the best fit.
+std::string title(const Tested& tested);
 
 /// Returns `count` points of a lattice of nearly square cells that fills a box.
 std::vector<Eigen::Vector2d> lattice(const Eigen::Vector2d& low, const Eigen::Vector2d& high,

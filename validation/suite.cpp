@@ -18,8 +18,8 @@ namespace {
 /// Runs pairs of test and model.
 class Suite {
  public:
-  Suite(Results& results, Effort effort, const SuiteProgress& progress)
-      : results_(results), effort_(effort), progress_(progress) {}
+  Suite(const std::vector<Tested>& models, Results& results, const SuiteProgress& progress)
+      : models_(models), results_(results), progress_(progress) {}
 
   void run(int threads, const std::stop_token& stop) {
     const std::size_t models = results_.models.size();
@@ -27,7 +27,7 @@ class Suite {
     run_items(total, threads, stop, [&](std::size_t number) {
       const std::size_t test = number / models;
       const std::size_t model = number % models;
-      Verdict verdict = results_.tests[test].run({results_.models[model]}, effort_);
+      Verdict verdict = results_.tests[test].run(models_[model], results_.effort);
       const std::lock_guard lock(mutex_);
       results_.verdicts[test][model] = std::move(verdict);
       ++done_;
@@ -36,8 +36,8 @@ class Suite {
   }
 
  private:
+  const std::vector<Tested>& models_;
   Results& results_;
-  Effort effort_;
   const SuiteProgress& progress_;
   std::mutex mutex_;
   std::size_t done_ = 0;
@@ -64,14 +64,21 @@ std::vector<Test> chosen_tests(const std::vector<std::string>& ids) {
 
 }  // namespace
 
-std::vector<std::string> chosen_models(const std::vector<std::string>& names) {
-  std::vector<std::string> chosen;
-  chosen.reserve(crowd::models().size());
-  for (const std::string& name : names) chosen.emplace_back(crowd::find_model(name).name);
+std::vector<Tested> chosen_models(const std::vector<std::string>& names,
+                                  crowd::ConstantsChoice choice) {
+  std::vector<Tested> chosen;
+  const auto add = [&](const crowd::ModelEntry& entry) {
+    crowd::chosen_constants(entry, choice, 1);  // throws if there are none
+    Tested& tested = chosen.emplace_back();
+    tested.model = entry.name;
+    tested.choice = choice;
+  };
+  for (const std::string& name : names) add(crowd::find_model(name));
   if (!chosen.empty()) return chosen;
-  chosen.emplace_back("ttc");
+  add(crowd::find_model("ttc"));
+  if (choice != crowd::ConstantsChoice::best) return chosen;
   for (const crowd::ModelEntry& entry : crowd::models()) {
-    if (entry.name != "ttc" && entry.name != "dummy") chosen.emplace_back(entry.name);
+    if (entry.name != "ttc" && entry.name != "dummy") add(entry);
   }
   return chosen;
 }
@@ -85,12 +92,13 @@ std::vector<Test> all_tests() {
   return all;
 }
 
-Results run_suite(const std::vector<std::string>& models, const std::vector<std::string>& tests,
+Results run_suite(const std::vector<Tested>& models, const std::vector<std::string>& tests,
                   Effort effort, int threads, const SuiteProgress& progress,
                   const std::stop_token& stop) {
-  Results results{effort, chosen_models(models), chosen_tests(tests), {}};
+  Results results{effort, {}, chosen_tests(tests), {}};
+  for (const Tested& tested : models) results.models.push_back(title(tested));
   results.verdicts.assign(results.tests.size(), std::vector<Verdict>(results.models.size()));
-  Suite(results, effort, progress).run(threads, stop);
+  Suite(models, results, progress).run(threads, stop);
   return results;
 }
 

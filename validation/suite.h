@@ -40,14 +40,16 @@ std::vector<Test> walking_tests();
 /// Returns all tests in the order of the report.
 std::vector<Test> all_tests();
 
-/// Returns the names of these models (empty: all but `dummy`, the default one first). Throws
-/// InputError for an unknown one.
-std::vector<std::string> chosen_models(const std::vector<std::string>& names);
+/// Returns these models (empty: all but `dummy`, the default one first; with other constants than
+/// those of the best fit only those that have them). Throws InputError for an unknown model, or one
+/// without such constants.
+std::vector<Tested> chosen_models(const std::vector<std::string>& names,
+                                  crowd::ConstantsChoice choice = crowd::ConstantsChoice::best);
 
 /// Results of run_suite().
 struct Results {
   Effort effort = Effort::full;
-  std::vector<std::string> models;
+  std::vector<std::string> models;  ///< titles
   std::vector<Test> tests;
   std::vector<std::vector<Verdict>> verdicts;  ///< indexed by test, then by model
 };
@@ -55,10 +57,10 @@ struct Results {
 /// Called with the number of finished pairs of test and model and their total; one call at a time.
 using SuiteProgress = std::function<void(std::size_t done, std::size_t total)>;
 
-/// Runs the tests with these ids (empty: all) for these models (empty: all but `dummy`) on
-/// `threads` threads, on which results do not depend. Throws InputError for an unknown model or
-/// test, Cancelled when `stop` is requested.
-Results run_suite(const std::vector<std::string>& models, const std::vector<std::string>& tests,
+/// Runs the tests with these ids (empty: all) for these models on `threads` threads, on which
+/// results do not depend. Throws InputError for an unknown test, Cancelled when `stop` is
+/// requested.
+Results run_suite(const std::vector<Tested>& models, const std::vector<std::string>& tests,
                   Effort effort, int threads, const SuiteProgress& progress = {},
                   const std::stop_token& stop = {});
 

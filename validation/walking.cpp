@@ -19,30 +19,30 @@ using Eigen::Vector2f;
 
 namespace {
 
-constexpr double kStuckS = 10;
+constexpr double kStuckS = 10;  // of getting nowhere
 
-/// The places of people, for telling later who has got nowhere.
-class Places {
+/// The positions of people, which give later the share of those who have got nowhere.
+class Snapshot {
  public:
-  explicit Places(const crowd::Simulation& crowd)
+  explicit Snapshot(const crowd::Simulation& crowd)
       : present_(crowd.present().begin(), crowd.present().end()),
-        places_(crowd.positions().begin(), crowd.positions().end()) {}
+        positions_(crowd.positions().begin(), crowd.positions().end()) {}
 
-  /// The share of those who are still there that are less than 1 m away from their place.
+  /// The share of those who are still there that are less than 1 m away.
   double share_stuck(const crowd::Simulation& crowd) const {
     std::size_t stuck = 0;
     std::size_t all = 0;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
       if (present_[i] == 0 || crowd.present()[i] == 0) continue;
       ++all;
-      stuck += (crowd.positions()[i] - places_[i]).norm() < 1 ? 1 : 0;
+      stuck += (crowd.positions()[i] - positions_[i]).norm() < 1 ? 1 : 0;
     }
     return all == 0 ? 0 : static_cast<double>(stuck) / static_cast<double>(all);
   }
 
  private:
   std::vector<std::uint8_t> present_;
-  std::vector<Vector2f> places_;
+  std::vector<Vector2f> positions_;
 };
 
 /// Steps, and calls act(agent) for those who have left.
@@ -122,7 +122,7 @@ SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed)
   crowd::Simulation crowd = load(square_scene(density), tested, seed);
   constexpr double kEndS = 120;
   while (crowd.time_s() < kEndS - kStuckS) crowd.step();
-  const Places before(crowd);
+  const Snapshot before(crowd);
   const std::size_t people = crowd.agent_count();
   double speed = 0;
   double accel_sq = 0;
@@ -197,7 +197,7 @@ TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) 
   Leavers leavers(crowd);
   const auto count = [&](std::size_t agent) { ++out[agent < people ? 0 : 1]; };
   while (crowd.time_s() < kEndS - kStuckS) leavers.step(count);
-  const Places before(crowd);
+  const Snapshot before(crowd);
   while (crowd.time_s() < kEndS) leavers.step(count);
   constexpr double kMeterSeconds = 4 * (kEndS - kBeginS);
   return {static_cast<double>(out[0]) / kMeterSeconds, static_cast<double>(out[1]) / kMeterSeconds,

@@ -17,6 +17,7 @@
 #include "cli/shell/file_kind.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress_bar.h"
+#include "crowd/project/project.h"
 #include "validation/experiments/plots.h"
 #include "validation/experiments/report.h"
 #include "validation/suite.h"
@@ -33,6 +34,7 @@ struct ValidateCrowdArguments {
   std::string data;
   std::vector<std::string> experiments;
   std::optional<std::size_t> seeds;
+  std::string constants;
   std::string output;
   int threads = 0;
   bool reduced = false;
@@ -62,17 +64,19 @@ std::vector<validation::Experiment> read_experiments(const ValidateCrowdArgument
   return chosen;
 }
 
+std::vector<validation::Tested> tested_models(const ValidateCrowdArguments& arguments) {
+  return validation::chosen_models(
+      arguments.models, arguments.constants.empty() ? crowd::ConstantsChoice::best
+                                                    : crowd::parse_constants(arguments.constants));
+}
+
 validation::Comparison compare_with_people(const ValidateCrowdArguments& arguments) {
   constexpr std::size_t kSeeds = 20;
   constexpr std::size_t kReducedSeeds = 2;
-  std::vector<validation::Tested> models;
-  for (const std::string& name : validation::chosen_models(arguments.models)) {
-    models.push_back({name});
-  }
   const Interrupt interrupt;
   ProgressBar bar("validation");
   return validation::compare(
-      read_experiments(arguments), models,
+      read_experiments(arguments), tested_models(arguments),
       arguments.seeds.value_or(arguments.reduced ? kReducedSeeds : kSeeds), arguments.threads,
       [&](std::size_t done, std::size_t total) {
         bar.show(static_cast<double>(done) / static_cast<double>(total),
@@ -113,7 +117,7 @@ void run_tests(const ValidateCrowdArguments& arguments) {
     const Interrupt interrupt;
     ProgressBar bar("validation");
     results = validation::run_suite(
-        arguments.models, arguments.tests,
+        tested_models(arguments), arguments.tests,
         arguments.reduced ? validation::Effort::reduced : validation::Effort::full,
         arguments.threads,
         [&](std::size_t done, std::size_t total) {
@@ -159,6 +163,13 @@ void add_validate_crowd(CLI::App& app) {
                    "Simulations of each experiment with each model; else 20, reduced 2")
       ->check(CLI::Range(1, 1000))
       ->needs(data);
+  command
+      ->add_option(
+          "--constants", arguments->constants,
+          "Constants of ttc: best, posterior (each run draws them by its seed) or "
+          "conservative; with others than best, ttc is tested alone unless -m names models")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(crowd::kConstantsWords.begin(), crowd::kConstantsWords.end())));
   command->add_flag("--reduced", arguments->reduced, "Fewer people and runs: seconds per model");
   command->add_option("-j,--threads", arguments->threads, "Parallel tests (0: one per core)")
       ->check(CLI::NonNegativeNumber)

@@ -72,8 +72,8 @@ struct Agents {
   std::vector<std::uint8_t> present;  ///< 1: takes part
   std::vector<std::uint8_t> awaited;  ///< 1: still to arrive, see Arrivals
   std::vector<std::uint8_t> panicked;
-  std::vector<std::uint8_t> fallen;          ///< 1: lies on the ground, see Bodies
-  std::vector<std::int32_t> social_group;    ///< index into Crowd::social_groups; -1: alone
+  std::vector<std::uint8_t> fallen;        ///< 1: lies on the ground, see Bodies
+  std::vector<std::int32_t> social_group;  ///< index into Crowd::social_groups; -1: alone
   /// Share of the radius that the body takes now; below 1 where shoulders are turned.
   std::vector<float> breadth;
   std::vector<Eigen::Vector2f> position;     ///< m

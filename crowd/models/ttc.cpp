@@ -281,7 +281,7 @@ class TimeToCollision : public Model {
                          crowd.agents[Property::max_speed][grid.id(slot)], work.scratch);
   }
 
-  /// What the walls beside an agent do to it.
+  /// Effects of the walls beside an agent.
   struct Passage {
     float max_share = 1;  ///< of the free speed, where there is room for one only
     float enclosure = 1;  ///< how much the ground behind the walls counts as taken

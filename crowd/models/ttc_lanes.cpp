@@ -473,6 +473,7 @@ struct TtcKernel {
       const Float some = meets ? a : Float{} + 1;
       const Float time = greater((b - root) / some, Float{} + kMinTimeS);
       const auto soon = meets & (time < kMaxHorizonS);
+      if (!any(soon)) continue;
       const Float slope = c.strength_m2 * exponential(-time / c.horizon_s) / (time * time) *
                           (2 / time + 1 / c.horizon_s);
       // Discs that would just graze each other have a gradient without limit.

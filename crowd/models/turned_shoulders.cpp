@@ -9,17 +9,17 @@ namespace {
 constexpr float kBlocked = 0.3F;           // share of the wished speed: who is slower is blocked
 constexpr float kMinWishMps = 0.2F;        // who hardly wants to move waits
 constexpr float kBlockedPatienceS = 0.3F;  // of being blocked before one turns
-constexpr float kTurningS = 0.4F;          // from the full breadth to the least
+constexpr float kTurningS = 0.4F;          // from the full breadth to the smallest
 constexpr float kBlockedForgetting = 2;    // how fast blocked time counts down
 
 }  // namespace
 
-TurnedShoulders::TurnedShoulders(std::size_t agent_count, float least)
-    : least_(least), breadths_(agent_count, 1.0F), blocked_s_(agent_count, 0.0F) {}
+TurnedShoulders::TurnedShoulders(std::size_t agent_count, float min_breadth)
+    : min_breadth_(min_breadth), breadths_(agent_count, 1.0F), blocked_s_(agent_count, 0.0F) {}
 
 void TurnedShoulders::update(std::size_t agent, float progress_mps, float wished_mps, float dt_s) {
   const bool blocked = wished_mps > kMinWishMps && progress_mps < kBlocked * wished_mps;
-  const float change = (1 - least_) * dt_s / kTurningS;
+  const float change = (1 - min_breadth_) * dt_s / kTurningS;
   float& breadth = breadths_[agent];
   float& time_s = blocked_s_[agent];
   if (!blocked) {
@@ -28,11 +28,11 @@ void TurnedShoulders::update(std::size_t agent, float progress_mps, float wished
     return;
   }
   time_s = std::min(time_s + dt_s, 2 * kBlockedPatienceS);
-  if (time_s > kBlockedPatienceS) breadth = std::max(least_, breadth - change);
+  if (time_s > kBlockedPatienceS) breadth = std::max(min_breadth_, breadth - change);
 }
 
 float TurnedShoulders::turned(std::size_t agent) const {
-  return least_ < 1 ? (1 - breadths_[agent]) / (1 - least_) : 0;
+  return min_breadth_ < 1 ? (1 - breadths_[agent]) / (1 - min_breadth_) : 0;
 }
 
 }  // namespace throng::crowd

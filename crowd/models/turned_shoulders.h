@@ -10,8 +10,8 @@ namespace throng::crowd {
 /// The breadths of all agents, by agent: shares of their radii.
 class TurnedShoulders {
  public:
-  /// `least` is the share of the radius of a body that is turned entirely; 1: nobody turns.
-  TurnedShoulders(std::size_t agent_count, float least);
+  /// `min_breadth` is the share of the radius of a body that is turned entirely; 1: nobody turns.
+  TurnedShoulders(std::size_t agent_count, float min_breadth);
 
   /// Turns an agent that has got less far than it wanted to: `progress_mps` along its path instead
   /// of `wished_mps`. Different agents may be updated by several threads.
@@ -22,7 +22,7 @@ class TurnedShoulders {
   float turned(std::size_t agent) const;
 
  private:
-  float least_;
+  float min_breadth_;
   std::vector<float> breadths_;
   std::vector<float> blocked_s_;
 };

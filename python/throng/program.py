@@ -158,6 +158,7 @@ def validate_crowd(
     models: Sequence[str] | None = None,
     experiments: Sequence[str] | None = None,
     seeds: int | None = None,
+    constants: str | None = None,
     program: PathLike | None = None,
     quiet: bool = False,
 ) -> Any:
@@ -169,6 +170,8 @@ def validate_crowd(
             command += [option, ",".join(names)]
     if seeds is not None:
         command += ["--seeds", str(seeds)]
+    if constants is not None:
+        command += ["--constants", constants]
     return json.loads(call(command, program=program, quiet=quiet))
 
 

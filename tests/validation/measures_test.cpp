@@ -221,7 +221,8 @@ class Alone : public testing::TestWithParam<std::pair<const char*, bool>> {};
 
 TEST_P(Alone, PassesTestsOfSinglePersonsOnly) {
   const auto& [id, passes] = GetParam();
-  const Verdict verdict = run_suite({"dummy"}, {id}, Effort::reduced, 1).verdicts[0][0];
+  const Verdict verdict =
+      run_suite(chosen_models({"dummy"}), {id}, Effort::reduced, 1).verdicts[0][0];
   EXPECT_EQ(verdict.passed, passes) << verdict.measured;
 }
 

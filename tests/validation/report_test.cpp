@@ -77,8 +77,8 @@ TEST(Report, IsThePageOfTheDocumentation) {
 TEST(Selection, KeepsTheOrderGivenAndCountsProgress) {
   std::vector<std::size_t> done;
   std::size_t total = 0;
-  const Results results = run_suite({"orca", "dummy"}, {"nist_2_1", "rimea_1"}, Effort::reduced, 2,
-                                    [&](std::size_t now, std::size_t all) {
+  const Results results = run_suite(chosen_models({"orca", "dummy"}), {"nist_2_1", "rimea_1"},
+                                    Effort::reduced, 2, [&](std::size_t now, std::size_t all) {
                                       done.push_back(now);
                                       total = all;
                                     });
@@ -99,7 +99,7 @@ TEST(Selection, KeepsTheOrderGivenAndCountsProgress) {
 
 /// No test is computed: the run is stopped before the first.
 std::vector<std::string> rows_of_models(const std::vector<std::string>& names) {
-  Results seen = run_suite(names, {"nist_2_1"}, Effort::reduced, 2);
+  Results seen = run_suite(chosen_models(names), {"nist_2_1"}, Effort::reduced, 2);
   return seen.models;
 }
 
@@ -115,7 +115,7 @@ TEST(Selection, TakesAllModelsButDummyWithTheDefaultFirst) {
 void expect_refused(const std::vector<std::string>& models, const std::vector<std::string>& tests,
                     const std::vector<std::string>& words) {
   try {
-    run_suite(models, tests, Effort::reduced, 1);
+    run_suite(chosen_models(models), tests, Effort::reduced, 1);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     for (const std::string& word : words) EXPECT_THAT(error.what(), testing::HasSubstr(word));
@@ -136,7 +136,8 @@ TEST(Selection, NamesTheUnknownModelAndASimilarOne) {
 }
 
 TEST(Selection, RunsATestTwiceThatIsNamedTwice) {
-  const Results results = run_suite({"orca"}, {"rimea_1", "rimea_1"}, Effort::reduced, 1);
+  const Results results =
+      run_suite(chosen_models({"orca"}), {"rimea_1", "rimea_1"}, Effort::reduced, 1);
   ASSERT_EQ(results.verdicts.size(), 2);
   EXPECT_EQ(results.verdicts[0][0].measured, results.verdicts[1][0].measured);
 }

@@ -69,7 +69,7 @@ Comparison compare(const std::vector<Experiment>& experiments, const std::vector
     if (progress) progress(done, total);
   });
   Comparison comparison{{}, seeds, {}};
-  for (const Tested& tested : models) comparison.models.push_back(tested.model);
+  for (const Tested& tested : models) comparison.models.push_back(title(tested));
   for (std::size_t i = 0; i < replays.size(); ++i) {
     comparison.experiments.push_back(collect(replays[i], runs[i]));
   }

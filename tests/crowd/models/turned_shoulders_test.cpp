@@ -6,10 +6,10 @@ namespace throng::crowd {
 namespace {
 
 constexpr float kStepS = 0.1F;
-constexpr float kLeast = 0.7F;
+constexpr float kMinBreadth = 0.7F;
 
 float breadth_after(int steps, float progress_mps, float wished_mps) {
-  TurnedShoulders shoulders(1, kLeast);
+  TurnedShoulders shoulders(1, kMinBreadth);
   for (int i = 0; i < steps; ++i) shoulders.update(0, progress_mps, wished_mps, kStepS);
   return shoulders.breadths()[0];
 }
@@ -22,12 +22,12 @@ TEST(TurnedShoulders, StayBroadWhileOneGetsAlongOrWaits) {
 TEST(TurnedShoulders, TurnAfterAMomentOfBeingBlocked) {
   EXPECT_EQ(breadth_after(3, 0, 1), 1.0F);
   EXPECT_LT(breadth_after(5, 0, 1), 1.0F);
-  EXPECT_GT(breadth_after(5, 0, 1), kLeast);
-  EXPECT_FLOAT_EQ(breadth_after(20, 0, 1), kLeast);
+  EXPECT_GT(breadth_after(5, 0, 1), kMinBreadth);
+  EXPECT_FLOAT_EQ(breadth_after(20, 0, 1), kMinBreadth);
 }
 
 TEST(TurnedShoulders, TurnBackOnceOneMoves) {
-  TurnedShoulders shoulders(2, kLeast);
+  TurnedShoulders shoulders(2, kMinBreadth);
   for (int i = 0; i < 20; ++i) shoulders.update(1, 0, 1, kStepS);
   EXPECT_EQ(shoulders.turned(0), 0);
   EXPECT_FLOAT_EQ(shoulders.turned(1), 1);
