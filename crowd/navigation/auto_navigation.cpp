@@ -313,11 +313,11 @@ void AutoNavigation::pass_bends(const Crowd& crowd, std::size_t agent, Route& ro
     route.next = route.lane_end;
   } else if (!holds_lane(route, p)) {
     const NavMesh& mesh = grounds_[static_cast<std::size_t>(route.ground)]->mesh;
+    const auto bend = [&](int i) { return route.bends[static_cast<std::size_t>(i)]; };
     while (route.next + 1 < route.count && (route.aim - p).squaredNorm() < near * near &&
-           mesh.is_clear(place_on(mesh, p, route.polygon),
-                         route.bends[static_cast<std::size_t>(route.next + 1)])) {
+           mesh.is_clear(place_on(mesh, p, route.polygon), bend(route.next + 1))) {
       ++route.next;
-      route.aim = route.bends[static_cast<std::size_t>(route.next)];
+      route.aim = bend(route.next);
     }
   }
   if (route.next != before) route.aim = route.bends[static_cast<std::size_t>(route.next)];

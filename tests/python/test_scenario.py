@@ -255,6 +255,8 @@ class Simulated(unittest.TestCase):
             quantities = {one["name"]: one for one in answer["experiments"][0]["quantities"]}
             self.assertAlmostEqual(quantities["speed"]["recorded"], 1, places=3)
             self.assertEqual(len(quantities["speed"]["models"][0]["values"]), 2)
+            other = throng.validate_crowd(folder, models=["ttc"], seeds=1, constants="conservative", quiet=True)
+            self.assertEqual(other["models"], ["ttc (conservative)"])
             with self.assertRaisesRegex(ProgramError, 'did you mean "loop"') as caught:
                 file.write_text(json.dumps({"experiments": [{**corridor, "lop": {}}]}))
                 throng.validate_crowd(folder, quiet=True)
