@@ -163,7 +163,11 @@ std::span<const float> Simulation::desired_speeds_mps() const {
   return state_->crowd.agents[Property::pref_speed];
 }
 
-std::vector<float> Simulation::radii_m() const {
+std::span<const float> Simulation::radii_m() const {
+  return state_->crowd.agents[Property::radius];
+}
+
+std::vector<float> Simulation::body_radii_m() const {
   const Agents& agents = state_->crowd.agents;
   std::vector<float> radii = agents[Property::radius];
   for (std::size_t i = 0; i < radii.size(); ++i) radii[i] *= agents.breadth[i];

@@ -57,8 +57,9 @@ class Simulation {
   std::span<const float> yaws_rad() const;
   /// Preferred speeds, as states' actions set them.
   std::span<const float> desired_speeds_mps() const;
-  /// Radii of the bodies, of which people who turn their shoulders take less.
-  std::vector<float> radii_m() const;
+  std::span<const float> radii_m() const;
+  /// The radii that bodies take now: less than radii_m() where shoulders are turned.
+  std::vector<float> body_radii_m() const;
   std::span<const std::uint8_t> states() const;  ///< indices into state_names()
   std::span<const GoalId> goals() const;
   /// 1: the agent takes part, that is, has arrived and not left yet.

@@ -111,6 +111,20 @@ Polygon jamb(const Bottleneck& door, double outer_m, double side) {
 
 }  // namespace
 
+std::vector<Bottleneck> drawn_doors(double width_m, bool all) {
+  using Lengths = std::vector<double>;
+  constexpr std::size_t kPeople = 75;
+  std::vector<Bottleneck> doors;
+  for (const double depth_m : all ? Lengths{0.1, 0.4, 1.1} : Lengths{0.1, 1.1}) {
+    for (const double room_m : all ? Lengths{1.8, 2.4, 5.6} : Lengths{2.4}) {
+      for (const double cut_m : all ? Lengths{0, 0.05, 0.15, 0.3} : Lengths{0, 0.15}) {
+        doors.push_back({width_m, depth_m, kPeople, room_m, cut_m});
+      }
+    }
+  }
+  return doors;
+}
+
 TestScene room_with_door(const Bottleneck& door) {
   constexpr double kWall = 1;          // m
   constexpr double kMaxDensity = 2.5;  // 1/m^2, before people move

@@ -45,6 +45,10 @@ struct Bottleneck {
   double corner_cut_m = 0;
 };
 
+/// Doors of one width for 75 people, drawn with other corners, depths and rooms; a few if not
+/// `all`.
+std::vector<Bottleneck> drawn_doors(double width_m, bool all);
+
 TestScene room_with_door(const Bottleneck& door);
 
 /// Flow (1/s) between the 10th and the 80th percentile of the passages of `people`; `times_s` are

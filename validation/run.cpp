@@ -13,7 +13,7 @@ std::size_t count_present(const crowd::Simulation& crowd) {
 
 double deepest_overlap_m(const crowd::Simulation& crowd) {
   const auto p = crowd.positions();
-  const auto r = crowd.radii_m();
+  const auto r = crowd.body_radii_m();
   double deepest = -std::numeric_limits<double>::infinity();
   std::vector<std::size_t> present;
   for (std::size_t i = 0; i < p.size(); ++i) {

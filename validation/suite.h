@@ -41,7 +41,7 @@ std::vector<Test> walking_tests();
 std::vector<Test> all_tests();
 
 /// Returns these models (empty: all but `dummy`, the default one first; with other constants than
-/// those of the best fit only those that have them). Throws InputError for an unknown model, or one
+/// those of the best fit the default one alone). Throws InputError for an unknown model, or one
 /// without such constants.
 std::vector<Tested> chosen_models(const std::vector<std::string>& names,
                                   crowd::ConstantsChoice choice = crowd::ConstantsChoice::best);

@@ -25,8 +25,8 @@ inline constexpr float kPassingRadii = 5.5F;
 /// `reach_m` away where it is farther, or is not there.
 float passage_width_m(const Crowd& crowd, const Grid& grid, const AgentView& around, float reach_m);
 
-/// Returns how far ahead the walls go on (m): the mean of those on the left and those on the right,
-/// of which parts count that are at most `reach_m` aside.
+/// Returns how far ahead the walls continue (m): the mean of the left and the right. Walls farther
+/// aside than `reach_m` do not count.
 float passage_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around, float reach_m);
 
 /// Returns the distance (m) straight ahead until the agent touches a person who is not oncoming;

@@ -6,8 +6,8 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr float kBlocked = 0.3F;           // share of the wished speed: who is slower is blocked
-constexpr float kMinWishMps = 0.2F;        // who hardly wants to move waits
+constexpr float kBlocked = 0.3F;           // share of the wished speed: slower people are blocked
+constexpr float kMinWishMps = 0.2F;        // slower people wait
 constexpr float kBlockedPatienceS = 0.3F;  // of being blocked before one turns
 constexpr float kTurningS = 0.4F;          // from the full breadth to the smallest
 constexpr float kBlockedForgetting = 2;    // how fast blocked time counts down

@@ -652,10 +652,9 @@ class Crowd(Part):
     """soft: as the model gives it; hard: no two people ever overlap by more than 1 cm; auto: hard with ttc (without
     compat), else soft. Default: "auto"."""
     constants: Literal["best", "posterior", "conservative"] | None = None
-    """best: those that fit recorded people best; posterior: each run draws them from the posterior of that fit by
-    its seed, so that results spread as widely as the recordings leave open; conservative: exits pass no more than
-    IMO 4 and NIST 5.2 allow, which is less than recorded people do. Models other than ttc have best. Default:
-    "best"."""
+    """best: those that fit recorded people best; posterior: each run draws them from the posterior of an earlier fit
+    by its seed, so that results spread more (docs/crowd.md); conservative: exits pass no more than IMO 4 and NIST
+    5.2 allow, which is less than recorded people do. Models other than ttc have best. Default: "best"."""
     compliance: float | None = None
     """Probability that a person near a guide follows it; multiplies that of the behavior file. Default: 1."""
     leading: float | None = None

@@ -87,16 +87,12 @@ void add_flows(std::vector<Gate>& all) {
 
 void add_geometries(std::vector<Gate>& all) {
   for (const double width : {0.5, 0.7, 0.8, 1.0, 1.2}) {
-    for (const double depth : {0.1, 0.4, 1.1}) {
-      for (const double room : {1.8, 2.4, 5.6}) {
-        for (const double cut : {0.0, 0.05, 0.15, 0.3}) {
-          all.push_back({fmt::format("geometry_{}_{}_{}_{}", width, depth, room, cut),
-                         [=](const Tested& t, std::uint64_t seed) {
-                           const Bottleneck door{width, depth, 75, room, cut};
-                           return Numbers{width * specific_flow(t, door, seed)};
-                         }});
-        }
-      }
+    for (const Bottleneck& door : drawn_doors(width, true)) {
+      all.push_back(
+          {fmt::format("geometry_{}_{}_{}_{}", width, door.wall_m, door.room_m, door.corner_cut_m),
+           [door](const Tested& t, std::uint64_t seed) {
+             return Numbers{door.width_m * specific_flow(t, door, seed)};
+           }});
     }
   }
 }

@@ -52,7 +52,7 @@ world::TraceHeader crowd_header(const crowd::Simulation& crowd, std::uint64_t se
   header.state_names = crowd.state_names();
   header.state_lying = lying_states(crowd);
   header.role.assign(crowd.agent_count(), world::AgentRole::person);
-  header.radius_m = crowd.radii_m();
+  header.radius_m = copied(crowd.radii_m());
   header.pref_speed_mps = copied(crowd.desired_speeds_mps());
   header.group = copied(crowd.social_groups());
   return header;

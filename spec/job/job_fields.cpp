@@ -97,8 +97,8 @@ void add_crowd_fields(FieldTable<JobSpec>& table) {
       .add_word("crowd/constants", "Constants of the model", crowd::kConstantsWords,
                 at(&JobSpec::crowd, &sim::CrowdSpec::constants),
                 "best: those that fit recorded people best; posterior: each run draws them from "
-                "the posterior of that fit by its seed, so that results spread as widely as the "
-                "recordings leave open; conservative: exits pass no more than IMO 4 and NIST 5.2 "
+                "the posterior of an earlier fit by its seed, so that results spread more "
+                "(docs/crowd.md); conservative: exits pass no more than IMO 4 and NIST 5.2 "
                 "allow, which is less than recorded people do. Models other than ttc have best.")
       .randomized();
   table.add("crowd/compliance", "Compliance", "", numbers(0, 1),

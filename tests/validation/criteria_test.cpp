@@ -259,7 +259,7 @@ TEST(CapacityDrop, WantsSeventyPercentAndAStandstill) {
   EXPECT_EQ(capacity_drop(1.0, 0.7, 0.5).measured, "1.00, 0.70, 0.50 /(m s)");
 }
 
-TEST(OpenSquare, LetsFivePercentBeStuck) {
+TEST(OpenSquare, LetsTwoPercentBeStuck) {
   EXPECT_TRUE(open_square(0.02, 0.02).passed);
   EXPECT_FALSE(open_square(0.03, 0).passed);
   EXPECT_FALSE(open_square(0, 0.03).passed);
