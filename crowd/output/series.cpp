@@ -89,7 +89,8 @@ void SeriesWriter::write_line(const Simulation& crowd) {
   }
   const auto count = static_cast<double>(all);
   const Spread spread = measure_spread(crowd, count);
-  const PairDistances pairs = pairs_.measure(crowd.positions(), crowd.body_radii_m(), crowd.present());
+  const PairDistances pairs =
+      pairs_.measure(crowd.positions(), crowd.body_radii_m(), crowd.present());
   std::string line = csv_number(crowd.time_s(), kDecimals);
   const auto add = [&](double value) { line += fmt::format(",{}", csv_number(value, kDecimals)); };
   add(static_cast<double>(final) / count);
