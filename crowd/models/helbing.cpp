@@ -85,8 +85,8 @@ struct CrowdForceKernel {
     Float<kWidth> force_y{};
     for (std::size_t i = 0; i < agents.rows(); ++i) {
       const auto there = count > static_cast<float>(i);
-      const LaneBatch::Slots others = agents.row(i);
-      const auto other = discs_in<kWidth>(setting.grid, &others[first]);
+      const auto others = agents.row<kWidth>(i, first);
+      const auto other = discs_in<kWidth>(setting.grid, others.data());
       const Float<kWidth> x = self.x - other.x;
       const Float<kWidth> y = self.y - other.y;
       const Float<kWidth> separation = square_root<kWidth>(x * x + y * y);
@@ -96,10 +96,10 @@ struct CrowdForceKernel {
                               together ? Float<kWidth>{} : y / separation,
                               broadcast<kWidth>(constants[force_distance])};
       if (any(there & together)) {
-        part<kWidth>(setting, &agents.slots()[first], &others[first], normals);
+        part<kWidth>(setting, &agents.slots()[first], others.data(), normals);
       }
       if (setting.right_of_way) {
-        give_way<kWidth>(setting, &agents.slots()[first], &others[first], normals);
+        give_way<kWidth>(setting, &agents.slots()[first], others.data(), normals);
       }
       const Float<kWidth> along =
           (other.vx - self.vx) * normals.y - (other.vy - self.vy) * normals.x;

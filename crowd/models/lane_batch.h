@@ -15,7 +15,7 @@ namespace throng::crowd {
 /// other agents of the batch.
 class LaneBatch {
  public:
-  static constexpr std::size_t kAgents = 8;
+  static constexpr std::size_t kAgents = 32;  ///< a multiple of all numbers of lanes
   using Lanes = std::array<float, kAgents>;
   using Slots = std::array<std::uint32_t, kAgents>;  ///< slots of the grid
 
@@ -46,11 +46,14 @@ class LaneBatch {
 
   const Slots& slots() const { return slots_; }
   const Lanes& neighbors() const { return neighbors_; }  ///< number of neighbors, per lane
-  /// Returns the i-th neighbor of each agent, or the agent itself if it has none.
-  Slots row(std::size_t i) const {
-    Slots others = others_[i];
-    for (std::size_t lane = 0; lane < kAgents; ++lane) {
-      if (!(neighbors_[lane] > static_cast<float>(i))) others[lane] = slots_[lane];
+  /// Returns the i-th neighbors of the agents in kWidth lanes from `first` on, or the agent itself
+  /// if it has none.
+  template <int kWidth>
+  std::array<std::uint32_t, kWidth> row(std::size_t i, std::size_t first) const {
+    std::array<std::uint32_t, kWidth> others{};
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const bool there = neighbors_[first + lane] > static_cast<float>(i);
+      others[lane] = there ? others_[i][first + lane] : slots_[first + lane];
     }
     return others;
   }

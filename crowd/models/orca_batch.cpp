@@ -76,10 +76,10 @@ struct OrcaKernel {
     const Float<kWidth> count = load<kWidth>(&agents.neighbors()[first]);
     for (std::size_t i = 0; i < agents.rows(); ++i) {
       const auto there = count > static_cast<float>(i);
-      const LaneBatch::Slots others = agents.row(i);
-      auto other = discs_in<kWidth>(grid, &others[first]);
+      const auto others = agents.row<kWidth>(i, first);
+      auto other = discs_in<kWidth>(grid, others.data());
       if (any(there & (other.x == self.x) & (other.y == self.y))) {
-        part<kWidth>(grid, self, &agents.slots()[first], &others[first], other);
+        part<kWidth>(grid, self, &agents.slots()[first], others.data(), other);
       }
       const auto plane =
           avoid_disc_lanes<Float<kWidth>>(self, other, cutoff, broadcast<kWidth>(1 / dt_s));

@@ -35,8 +35,8 @@ struct PaceKernel {
     Float<kWidth> along{};
     Float<kWidth> against{};
     for (std::size_t i = 0; i < agents.rows(); ++i) {
-      const LaneBatch::Slots others = agents.row(i);
-      const auto other = discs_in<kWidth>(grid, &others[first]);
+      const auto others = agents.row<kWidth>(i, first);
+      const auto other = discs_in<kWidth>(grid, others.data());
       const Float<kWidth> apart_x = other.x - self.x;
       const Float<kWidth> apart_y = other.y - self.y;
       const Float<kWidth> distance_sq = apart_x * apart_x + apart_y * apart_y;
@@ -49,7 +49,7 @@ struct PaceKernel {
       const Float<kWidth> weight = counts ? near : none;
       Float<kWidth> cosine;
       for (std::size_t lane = 0; lane < kWidth; ++lane) {
-        const Eigen::Vector2f& way = directions[others[first + lane]];
+        const Eigen::Vector2f& way = directions[others[lane]];
         cosine[lane] = way.x() * way_x[lane] + way.y() * way_y[lane];
       }
       const Float<kWidth> opposed = cosine < kOncoming ? weight : none;

@@ -124,6 +124,7 @@ class TimeToCollision : public Model {
     sort_intents(crowd, grid);
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Workspace& work = workspaces_.local();
+      if (!work.made) work = make_workspace(crowd);
       for (std::size_t slot = begin; slot < end; slot += LaneBatch::kAgents) {
         step_batch(crowd, grid, slot, std::min(slot + LaneBatch::kAgents, end), work, new_velocity);
       }
@@ -148,7 +149,6 @@ class TimeToCollision : public Model {
 
   void step_batch(const Crowd& crowd, const Grid& grid, std::size_t begin, std::size_t end,
                   Workspace& work, std::span<Eigen::Vector2f> new_velocity) {
-    if (!work.made) work = make_workspace(crowd);
     work.batch.clear();
     work.close_walls.clear();
     for (std::size_t slot = begin; slot < end; ++slot) {

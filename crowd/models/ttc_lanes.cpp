@@ -1,31 +1,22 @@
 #include "crowd/models/ttc_lanes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "base/compute/simd.h"
 #include "crowd/models/disc_lanes.h"
 #include "crowd/models/oncoming.h"
+#include "crowd/models/ttc_motion.h"
 
 namespace throng::crowd {
 
 namespace {
 
-/// Forces between discs are integrated with this step, whatever the simulation's step is.
-constexpr float kStepS = 0.02F;
-/// Collisions farther ahead in time are not seen; nearer ones count as if they were this near.
-constexpr float kMaxHorizonS = 8;
-constexpr float kMinTimeS = 0.02F;
-constexpr float kMinRelativeSpeedSq = 1e-4F;  // m^2/s^2: relative velocities below never collide
-constexpr float kBehind = 0.3F;               // weight of others who are not in view
-constexpr float kView = -0.2F;                // cosine of the edge of the view
-constexpr float kMaxForce = 15;               // m/s^2
-constexpr float kSamePosition = 1e-3F;        // m: nearer than that two have no direction
-constexpr float kContact = 100;               // 1/s^2: force per depth of an overlap
-constexpr float kWall = 10;                   // m/s^2 at a wall
-constexpr float kWallRangeM = 0.03F;          // over which that falls to 1/e
-constexpr float kShuffleMps = 0.1F;  // forces make nobody faster than this or than they want to be
+constexpr float kSamePosition = 1e-3F;  // m: nearer than that two have no direction
+/// Two who are nearer than this times the step may touch within it.
+constexpr float kApproachMps = 1.5F;
 /// How fast one steps back at most, per person and m^2 of those who do not walk the same way.
 constexpr float kStepBack = 4;     // m^3/s
 constexpr float kDense = 0.6F;     // 1/m^2: nobody keeps a distance to oncoming people
@@ -44,13 +35,20 @@ Float clamped(Float v, float low, float high) {
 }  // namespace
 
 TtcBatch::TtcBatch(std::size_t neighbors, std::size_t walls)
-    : agents_(neighbors), rows_(neighbors), walls_(walls) {
+    : agents_(neighbors),
+      rows_(neighbors),
+      walls_(walls),
+      busy_rows_(neighbors),
+      busy_walls_(walls) {
   for (std::vector<Segment>& segments : segments_) segments.reserve(walls);
 }
 
 void TtcBatch::add(const View& view) {
   const std::size_t lane = agents_.add(view.slot, view.neighbors);
-  if (rows_.size() < agents_.rows()) rows_.resize(agents_.rows());
+  if (rows_.size() < agents_.rows()) {
+    rows_.resize(agents_.rows());
+    busy_rows_.resize(agents_.rows());
+  }
   segments_[lane].clear();
   wall_count_[lane] = 0;
   reach_sq_[lane] = view.reach_sq_m2;
@@ -68,11 +66,13 @@ void TtcBatch::add_wall(const Eigen::Vector2f& begin, const Eigen::Vector2f& end
   segments_[lane].push_back({begin, end - begin});
   if (!pushes) return;
   const auto row = static_cast<std::size_t>(wall_count_[lane]);
-  if (row >= walls_.size()) walls_.resize(row + 1);
+  if (row >= walls_.size()) {
+    walls_.resize(row + 1);
+    busy_walls_.resize(row + 1);
+  }
   walls_[row].x[lane] = nearest.x();
   walls_[row].y[lane] = nearest.y();
   wall_count_[lane] += 1;
-  wall_rows_ = std::max(wall_rows_, row + 1);
 }
 
 struct TtcKernel {
@@ -82,25 +82,92 @@ struct TtcKernel {
     DiscLanes<FloatOf<kWidth>> disc;
     FloatOf<kWidth> direction_x;
     FloatOf<kWidth> direction_y;
-    FloatOf<kWidth> count;      // number of neighbors
-    FloatOf<kWidth> same;       // density of people who walk the same way, 1/m^2
-    FloatOf<kWidth> others;     // density of those who do not
-    FloatOf<kWidth> oncoming;   // density of oncoming people ahead
-    FloatOf<kWidth> opposed;    // density of oncoming people around
-    FloatOf<kWidth> clearance;  // kept to oncoming people, m
-    FloatOf<kWidth> left;       // by how much it is more crowded on the left, 1/m^2
+    FloatOf<kWidth> count;                    // number of neighbors
+    std::array<std::int32_t, kWidth> kept{};  // number of those that may act on it in the step
+    FloatOf<kWidth> same;                     // density of people who walk the same way, 1/m^2
+    FloatOf<kWidth> others;                   // density of those who do not
+    FloatOf<kWidth> oncoming;                 // density of oncoming people ahead
+    FloatOf<kWidth> opposed;                  // density of oncoming people around
+    FloatOf<kWidth> clearance;                // kept to oncoming people, m
+    FloatOf<kWidth> left;                     // by how much it is more crowded on the left, 1/m^2
+  };
+
+  /// Busy agents of a batch, who are integrated together once all lanes are taken.
+  template <int kWidth>
+  struct Queue {
+    typename TtcMotion<kWidth>::Movers movers{};
+    std::array<std::size_t, kWidth> lanes{};  // of the batch
+    std::size_t count = 0;
   };
 
   template <int kWidth>
   static void run(const TtcBatch::Setting& setting, TtcBatch& batch) {
     batch.agents_.fill();
+    const typename TtcMotion<kWidth>::Steps steps(setting.dt_s, setting.constants.relaxation_s);
+    Queue<kWidth> queue;
     for (std::size_t first = 0; first < batch.agents_.size(); first += kWidth) {
-      lanes<kWidth>(setting, first, batch);
+      auto movers = lanes<kWidth>(setting, first, batch);
+      const auto busy = TtcMotion<kWidth>::begin(
+          setting.constants, steps, {batch.rows_.data(), batch.walls_.data(), first}, movers);
+      store(movers.moved_x / setting.dt_s, &batch.velocity_x_[first]);
+      store(movers.moved_y / setting.dt_s, &batch.velocity_y_[first]);
+      for (unsigned which = movemask(busy); which != 0; which &= which - 1) {
+        enqueue<kWidth>(movers, first, static_cast<std::size_t>(std::countr_zero(which)), batch,
+                        queue);
+        if (queue.count == kWidth) finish<kWidth>(setting, steps, batch, queue);
+      }
     }
+    finish<kWidth>(setting, steps, batch, queue);
   }
 
   template <int kWidth>
-  static void lanes(const TtcBatch::Setting& setting, std::size_t first, TtcBatch& batch) {
+  static void enqueue(const typename TtcMotion<kWidth>::Movers& movers, std::size_t first,
+                      std::size_t lane, TtcBatch& batch, Queue<kWidth>& queue) {
+    const std::size_t from = first + lane;
+    const std::size_t to = queue.count++;
+    queue.lanes[to] = from;
+    TtcMotion<kWidth>::copy_lane(movers, lane, queue.movers, to);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(movers.others[lane]); ++i) {
+      copy_row(batch.rows_[i], from, batch.busy_rows_[i], to);
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(movers.walls[lane]); ++i) {
+      batch.busy_walls_[i].x[to] = batch.walls_[i].x[from];
+      batch.busy_walls_[i].y[to] = batch.walls_[i].y[from];
+    }
+  }
+
+  static void copy_row(const TtcBatch::Row& row, std::size_t from, TtcBatch::Row& copy,
+                       std::size_t to) {
+    copy.x[to] = row.x[from];
+    copy.y[to] = row.y[from];
+    copy.vx[to] = row.vx[from];
+    copy.vy[to] = row.vy[from];
+    copy.touch[to] = row.touch[from];
+    copy.against[to] = row.against[from];
+    copy.weight[to] = row.weight[from];
+  }
+
+  template <int kWidth>
+  static void finish(const TtcBatch::Setting& setting,
+                     const typename TtcMotion<kWidth>::Steps& steps, TtcBatch& batch,
+                     Queue<kWidth>& queue) {
+    if (queue.count == 0) return;
+    for (std::size_t lane = queue.count; lane < kWidth; ++lane) {
+      queue.movers.others[lane] = queue.movers.walls[lane] = 0;
+    }
+    TtcMotion<kWidth>::finish(setting.constants, steps,
+                              {batch.busy_rows_.data(), batch.busy_walls_.data(), 0}, queue.movers);
+    for (std::size_t lane = 0; lane < queue.count; ++lane) {
+      batch.velocity_x_[queue.lanes[lane]] = queue.movers.moved_x[lane] / setting.dt_s;
+      batch.velocity_y_[queue.lanes[lane]] = queue.movers.moved_y[lane] / setting.dt_s;
+    }
+    queue.count = 0;
+  }
+
+  /// What a group of agents sees and wants.
+  template <int kWidth>
+  static typename TtcMotion<kWidth>::Movers lanes(const TtcBatch::Setting& setting,
+                                                  std::size_t first, TtcBatch& batch) {
     using Float = FloatOf<kWidth>;
     const TtcConstants& c = setting.constants;
     Self<kWidth> self = look<kWidth>(setting, first, batch);
@@ -115,7 +182,30 @@ struct TtcKernel {
         smaller(share, 1 - c.caution * (1 - exponential(-self.opposed / c.caution_density_per_m2)));
     const Float speed = smaller(load<kWidth>(&batch.max_mps_[first]), share * free_mps);
     store(speed, &batch.wished_mps_[first]);
-    integrate<kWidth>(setting, first, self, speed, batch);
+    // People spread to the less crowded side, and keep right of those who come towards them.
+    const Float aside =
+        clamped<Float>(c.spread_m2 * self.left / 2, -c.max_spread / 2, c.max_spread / 2);
+    const Float t = smaller(c.keep_right_m2 * self.oncoming / 2 + aside, Float{} + kMaxHalfTurn);
+    Float wish_x = self.direction_x;
+    Float wish_y = self.direction_y;
+    turn_right(t, wish_x, wish_y);
+    return {.before_vx = self.disc.vx,
+            .before_vy = self.disc.vy,
+            .radius = self.disc.radius,
+            .direction_x = self.direction_x,
+            .direction_y = self.direction_y,
+            .wish_x = speed * wish_x,
+            .wish_y = speed * wish_y,
+            .speed = speed,
+            .max_back = kStepBack * self.others,
+            .clearance = self.clearance,
+            .care = load<kWidth>(&batch.care_[first]),
+            .vx = self.disc.vx,
+            .vy = self.disc.vy,
+            .moved_x = Float{},
+            .moved_y = Float{},
+            .others = load<kWidth>(self.kept.data()),
+            .walls = load<kWidth>(&batch.wall_count_[first])};
   }
 
   /// The share of the free speed at a density of people who walk in the same direction: a logistic
@@ -153,7 +243,7 @@ struct TtcKernel {
     FloatOf<kWidth> opposed{};
   };
 
-  /// Fills the rows of the batch and computes densities.
+  /// Computes densities, and fills the rows of the batch.
   template <int kWidth>
   static Self<kWidth> look(const TtcBatch::Setting& setting, std::size_t first, TtcBatch& batch) {
     using Float = FloatOf<kWidth>;
@@ -163,11 +253,13 @@ struct TtcKernel {
     Float walks;
     intents_in<kWidth>(setting, &agents.slots()[first], self.direction_x, self.direction_y, walks);
     self.count = load<kWidth>(&agents.neighbors()[first]);
+    const Float free_mps = load<kWidth>(&batch.free_mps_[first]);
     const Float reach_sq = load<kWidth>(&batch.reach_sq_[first]);
     Sums<kWidth> sums;
     for (std::size_t i = 0; i < agents.rows(); ++i) {
       const Other<kWidth> other = look_at<kWidth>(setting, first, i, self, agents);
-      fill_row<kWidth>(setting.constants, first, self, other, batch.rows_[i]);
+      const auto acts = may_act<kWidth>(setting, self, other, free_mps);
+      if (any(acts)) keep<kWidth>(setting.constants, first, other, acts, batch, self);
       count<kWidth>(setting.constants, self, other, reach_sq, sums);
     }
     find_densities<kWidth>(setting.constants, first, reach_sq, sums, batch, self);
@@ -177,12 +269,12 @@ struct TtcKernel {
   template <int kWidth>
   static Other<kWidth> look_at(const TtcBatch::Setting& setting, std::size_t first, std::size_t i,
                                const Self<kWidth>& self, const LaneBatch& agents) {
-    const LaneBatch::Slots slots = agents.row(i);
+    const auto slots = agents.row<kWidth>(i, first);
     Other<kWidth> other;
-    other.disc = discs_in<kWidth>(setting.grid, &slots[first]);
+    other.disc = discs_in<kWidth>(setting.grid, slots.data());
     FloatOf<kWidth> direction_x;
     FloatOf<kWidth> direction_y;
-    intents_in<kWidth>(setting, &slots[first], direction_x, direction_y, other.walks);
+    intents_in<kWidth>(setting, slots.data(), direction_x, direction_y, other.walks);
     other.there = self.count > static_cast<float>(i);
     other.x = other.disc.x - self.disc.x;
     other.y = other.disc.y - self.disc.y;
@@ -190,23 +282,58 @@ struct TtcKernel {
     other.cosine = self.direction_x * direction_x + self.direction_y * direction_y;
     const auto together = other.there & (other.distance_sq < kSamePosition * kSamePosition);
     if (any(together)) {
-      part<kWidth>(setting, &agents.slots()[first], &slots[first], together, other.x, other.y);
+      part<kWidth>(setting, &agents.slots()[first], slots.data(), together, other.x, other.y);
     }
     return other;
   }
 
+  /// Whether there can be a force between the two within the step: they are close, or on courses
+  /// on which they meet as they walk now, or as the agent would like to.
   template <int kWidth>
-  static void fill_row(const TtcConstants& c, std::size_t first, const Self<kWidth>& self,
-                       const Other<kWidth>& other, TtcBatch::Row& row) {
+  static typename Vectors<kWidth>::Int may_act(const TtcBatch::Setting& setting,
+                                               const Self<kWidth>& self, const Other<kWidth>& other,
+                                               FloatOf<kWidth> free_mps) {
+    using Float = FloatOf<kWidth>;
+    const Float touch = self.disc.radius + other.disc.radius;
+    const Float close = touch + kApproachMps * setting.dt_s;
+    const Float apart = touch + setting.constants.clearance_m;
+    const Float gap_sq = other.distance_sq - apart * apart;
+    const auto meet = [&](Float vx, Float vy) {
+      const Float rx = vx - other.disc.vx;
+      const Float ry = vy - other.disc.vy;
+      const Float closing = other.x * rx + other.y * ry;
+      return (closing > 0) & (closing * closing > (rx * rx + ry * ry) * gap_sq);
+    };
+    return other.there & ((other.distance_sq < close * close) | meet(self.disc.vx, self.disc.vy) |
+                          meet(free_mps * self.direction_x, free_mps * self.direction_y));
+  }
+
+  /// Stores the neighbors of those lanes that they may act on, each in its lane's next row.
+  template <int kWidth>
+  static void keep(const TtcConstants& c, std::size_t first, const Other<kWidth>& other,
+                   typename Vectors<kWidth>::Int acts, TtcBatch& batch, Self<kWidth>& self) {
     using Float = FloatOf<kWidth>;
     const Float alongside = clamped<Float>(2 * other.cosine - 1, 0, 1);
-    store(other.x, &row.x[first]);
-    store(other.y, &row.y[first]);
-    store(other.disc.vx, &row.vx[first]);
-    store(other.disc.vy, &row.vy[first]);
-    store(self.disc.radius + other.disc.radius, &row.touch[first]);
-    store((1 - other.cosine) / 2, &row.against[first]);
-    store(1 - (1 - c.alongside_share) * alongside, &row.weight[first]);
+    TtcBatch::Row all;
+    store(other.x, &all.x[0]);
+    store(other.y, &all.y[0]);
+    store(other.disc.vx, &all.vx[0]);
+    store(other.disc.vy, &all.vy[0]);
+    store(self.disc.radius + other.disc.radius, &all.touch[0]);
+    store((1 - other.cosine) / 2, &all.against[0]);
+    store(1 - (1 - c.alongside_share) * alongside, &all.weight[0]);
+    for (unsigned which = movemask(acts); which != 0; which &= which - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(which));
+      TtcBatch::Row& kept = batch.rows_[static_cast<std::size_t>(self.kept[lane]++)];
+      const std::size_t to = first + lane;
+      kept.x[to] = all.x[lane];
+      kept.y[to] = all.y[lane];
+      kept.vx[to] = all.vx[lane];
+      kept.vy[to] = all.vy[lane];
+      kept.touch[to] = all.touch[lane];
+      kept.against[to] = all.against[lane];
+      kept.weight[to] = all.weight[lane];
+    }
   }
 
   template <int kWidth>
@@ -232,7 +359,7 @@ struct TtcKernel {
     sums.all += weight;
     sums.same += counts;
     sums.left += counts * aside;
-    const Float against = greater((kOncoming - other.cosine) / (kOncoming + 1), Float{});
+    const Float against = greater((1 / (kOncoming + 1)) * (kOncoming - other.cosine), Float{});
     const Float around =
         other.there & (other.distance_sq < reach_sq) ? reach_sq - other.distance_sq : Float{};
     sums.opposed += around * against * other.walks;
@@ -363,141 +490,6 @@ struct TtcKernel {
     }
     return weights;
   }();
-
-  /// The mean velocity of a step in which the others go on as they do, but answer what this agent
-  /// does.
-  template <int kWidth>
-  static void integrate(const TtcBatch::Setting& setting, std::size_t first,
-                        const Self<kWidth>& self, FloatOf<kWidth> speed, TtcBatch& batch) {
-    using Float = FloatOf<kWidth>;
-    const TtcConstants& c = setting.constants;
-    // People spread to the less crowded side, and keep right of those who come towards them.
-    const Float aside =
-        clamped<Float>(c.spread_m2 * self.left / 2, -c.max_spread / 2, c.max_spread / 2);
-    const Float t = smaller(c.keep_right_m2 * self.oncoming / 2 + aside, Float{} + kMaxHalfTurn);
-    Float wish_x = self.direction_x;
-    Float wish_y = self.direction_y;
-    turn_right(t, wish_x, wish_y);
-    wish_x *= speed;
-    wish_y *= speed;
-    const Float max_back = kStepBack * self.others;
-    const int steps = std::max(1, static_cast<int>(std::lround(setting.dt_s / kStepS)));
-    const float step_s = setting.dt_s / static_cast<float>(steps);
-    Float vx = self.disc.vx;
-    Float vy = self.disc.vy;
-    Float moved_x{};
-    Float moved_y{};
-    for (int step = 0; step < steps; ++step) {
-      const float time_s = step_s * static_cast<float>(step);
-      Float force_x{};
-      Float force_y{};
-      forces<kWidth>(setting, first, self, {vx, vy, moved_x, moved_y, time_s}, batch, force_x,
-                     force_y);
-      const Float size = square_root<kWidth>(force_x * force_x + force_y * force_y);
-      const Float cut = size > kMaxForce ? kMaxForce / size : Float{} + 1;
-      const Float before = square_root<kWidth>(vx * vx + vy * vy);
-      const Float limit = greater(greater(speed, Float{} + kShuffleMps), before);
-      vx += step_s * ((wish_x - vx) / c.relaxation_s + cut * force_x);
-      vy += step_s * ((wish_y - vy) / c.relaxation_s + cut * force_y);
-      const Float now = square_root<kWidth>(vx * vx + vy * vy);
-      const Float slower = now > limit ? limit / now : Float{} + 1;
-      vx *= slower;
-      vy *= slower;
-      const Float backward = -(vx * self.direction_x + vy * self.direction_y);
-      const Float excess = greater(backward - max_back, Float{});
-      vx += excess * self.direction_x;
-      vy += excess * self.direction_y;
-      moved_x += step_s * vx;
-      moved_y += step_s * vy;
-    }
-    store(moved_x / setting.dt_s, &batch.velocity_x_[first]);
-    store(moved_y / setting.dt_s, &batch.velocity_y_[first]);
-  }
-
-  /// The state of a step that is being integrated.
-  template <typename Float>
-  struct Motion {
-    Float vx;
-    Float vy;
-    Float moved_x;
-    Float moved_y;
-    float time_s;
-  };
-
-  template <int kWidth>
-  static void forces(const TtcBatch::Setting& setting, std::size_t first, const Self<kWidth>& self,
-                     const Motion<FloatOf<kWidth>>& motion, const TtcBatch& batch,
-                     FloatOf<kWidth>& force_x, FloatOf<kWidth>& force_y) {
-    using Float = FloatOf<kWidth>;
-    const TtcConstants& c = setting.constants;
-    // Both give way by as much: without that they would do twice what is needed, and swing.
-    const Float own_x = motion.moved_x - motion.time_s * self.disc.vx;
-    const Float own_y = motion.moved_y - motion.time_s * self.disc.vy;
-    const Float change_x = motion.vx - self.disc.vx;
-    const Float change_y = motion.vy - self.disc.vy;
-    const Float care = load<kWidth>(&batch.care_[first]);
-    for (std::size_t i = 0; i < batch.agents_.rows(); ++i) {
-      const auto there = self.count > static_cast<float>(i);
-      const TtcBatch::Row& row = batch.rows_[i];
-      const Float other_vx = load<kWidth>(&row.vx[first]);
-      const Float other_vy = load<kWidth>(&row.vy[first]);
-      const Float touch = load<kWidth>(&row.touch[first]);
-      const Float apart_x = motion.moved_x - load<kWidth>(&row.x[first]) - motion.time_s * other_vx;
-      const Float apart_y = motion.moved_y - load<kWidth>(&row.y[first]) - motion.time_s * other_vy;
-      const Float apart_sq = greater(apart_x * apart_x + apart_y * apart_y, Float{} + 1e-8F);
-      const Float answer = 1 + (own_x * apart_x + own_y * apart_y) / apart_sq;
-      const Float x = answer * apart_x;
-      const Float y = answer * apart_y;
-      const Float distance_sq = greater(x * x + y * y, Float{} + 1e-8F);
-      const Float distance = square_root<kWidth>(distance_sq);
-      const Float away_x = x / distance;
-      const Float away_y = y / distance;
-      const Float together = away_x * change_x + away_y * change_y;
-      const Float rx = motion.vx - other_vx + together * away_x;
-      const Float ry = motion.vy - other_vy + together * away_y;
-      const Float overlap = greater(touch - distance, Float{});
-      Float push = kContact * overlap;
-      // Discs that touch already avoid coming nearer.
-      constexpr float kNotYet = 0.98F;
-      const Float kept = touch + self.clearance * load<kWidth>(&row.against[first]);
-      const Float radius = smaller(kept, kNotYet * distance);
-      const Float a = rx * rx + ry * ry;
-      const Float b = -(x * rx + y * ry);
-      const Float discriminant = b * b - a * (distance_sq - radius * radius);
-      const auto meets = there & (a > kMinRelativeSpeedSq) & (b > 0) & (discriminant > 0);
-      push = there ? push : Float{};
-      force_x += push * away_x;
-      force_y += push * away_y;
-      if (!any(meets)) continue;
-      const Float root = square_root<kWidth>(greater(discriminant, Float{}));
-      const Float some = meets ? a : Float{} + 1;
-      const Float time = greater((b - root) / some, Float{} + kMinTimeS);
-      const auto soon = meets & (time < kMaxHorizonS);
-      if (!any(soon)) continue;
-      const Float slope = c.strength_m2 * exponential(-time / c.horizon_s) / (time * time) *
-                          (2 / time + 1 / c.horizon_s);
-      // Discs that would just graze each other have a gradient without limit.
-      constexpr float kGrazing = 0.1F;
-      const Float smooth = greater(root, kGrazing * square_root<kWidth>(some));
-      const auto unseen = self.direction_x * away_x + self.direction_y * away_y > -kView;
-      const Float weight =
-          care * load<kWidth>(&row.weight[first]) * (unseen ? Float{} + kBehind : Float{} + 1);
-      const Float scale = soon ? weight * slope / some : Float{};
-      force_x += scale * ((b * rx + a * x) / smooth - rx);
-      force_y += scale * ((b * ry + a * y) / smooth - ry);
-    }
-    const Float walls = load<kWidth>(&batch.wall_count_[first]);
-    for (std::size_t i = 0; i < batch.wall_rows_; ++i) {
-      const Float x = motion.moved_x - load<kWidth>(&batch.walls_[i].x[first]);
-      const Float y = motion.moved_y - load<kWidth>(&batch.walls_[i].y[first]);
-      const Float distance = greater(square_root<kWidth>(x * x + y * y), Float{} + 1e-4F);
-      const Float push =
-          kWall * exponential((self.disc.radius - distance) / kWallRangeM) / distance;
-      const auto there = walls > static_cast<float>(i);
-      force_x += there ? push * x : Float{};
-      force_y += there ? push * y : Float{};
-    }
-  }
 };
 
 TtcBatch::Solve* TtcBatch::pick(InstructionSet set) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -63,10 +64,7 @@ class TtcBatch {
   /// Reserves memory for so many neighbors and walls per agent.
   TtcBatch(std::size_t neighbors, std::size_t walls);
 
-  void clear() {
-    agents_.clear();
-    wall_rows_ = 0;
-  }
+  void clear() { agents_.clear(); }
   std::size_t size() const { return agents_.size(); }
   /// Adds an agent; add_wall() then adds its walls.
   void add(const View& view);
@@ -82,19 +80,6 @@ class TtcBatch {
   float perceived_per_m2(std::size_t lane) const { return perceived_[lane]; }
   float wished_mps(std::size_t lane) const { return wished_mps_[lane]; }
 
-  /// Inputs of a step besides the batch.
-  struct Setting {
-    const Grid& grid;
-    std::span<const Intent> intents;  ///< by slot of the grid
-    const TtcConstants& constants;
-    float dt_s = 0;
-  };
-  using Solve = void(const Setting&, TtcBatch&);
-  static Solve* pick(InstructionSet set);
-
- private:
-  friend struct TtcKernel;
-
   /// A neighbor of each agent.
   struct Row {
     Lanes x{};  // offset from the agent, m
@@ -109,6 +94,20 @@ class TtcBatch {
     Lanes x{};  // nearest point, from the agent, m
     Lanes y{};
   };
+
+  /// Inputs of a step besides the batch.
+  struct Setting {
+    const Grid& grid;
+    std::span<const Intent> intents;  ///< by slot of the grid
+    const TtcConstants& constants;
+    float dt_s = 0;
+  };
+  using Solve = void(const Setting&, TtcBatch&);
+  static Solve* pick(InstructionSet set);
+
+ private:
+  friend struct TtcKernel;
+
   struct Segment {
     Eigen::Vector2f begin;
     Eigen::Vector2f edge;
@@ -116,9 +115,10 @@ class TtcBatch {
 
   LaneBatch agents_;
   std::vector<Row> rows_;
-  std::size_t wall_rows_ = 0;
   std::vector<WallRow> walls_;
-  Lanes wall_count_{};
+  std::vector<Row> busy_rows_;  // of agents whose lanes are gathered
+  std::vector<WallRow> busy_walls_;
+  std::array<std::int32_t, LaneBatch::kAgents> wall_count_{};
   std::array<std::vector<Segment>, LaneBatch::kAgents> segments_;
   Lanes reach_sq_{};
   Lanes free_mps_{};

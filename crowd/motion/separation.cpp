@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace throng::crowd {
 
@@ -30,9 +31,9 @@ void Separation::separate(Crowd& crowd) {
   float worst = look_around();
   for (int round = 0; round < kPushRounds && worst > kGoodEnough; ++round) {
     push_apart(crowd);
-    worst = look_around();
+    worst = look_again();
   }
-  while (worst > kTolerance && send_back()) worst = look_around();
+  while (worst > kTolerance && send_back()) worst = look_again();
   Agents& agents = crowd.agents;
   const auto rate = static_cast<float>(1 / crowd.dt_s);
   parallel_ranges(grid_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -51,16 +52,18 @@ void Separation::sort(const Crowd& crowd) {
   bodies_.resize(grid_.size());
   largest_radius_ = 0;
   for (std::size_t slot = 0; slot < grid_.size(); ++slot) {
-    bodies_[slot] = {grid_.position(slot), Eigen::Vector2f::Zero(), -1, 0, false, 0};
+    bodies_[slot] = {.position = grid_.position(slot), .push = Eigen::Vector2f::Zero()};
     largest_radius_ = std::max(largest_radius_, grid_.radius(slot));
   }
   drift_ = 0;
-  round_ = 0;
 }
 
 /// In most steps nobody is pushed far: then only those near at the beginning are looked at.
 void Separation::find_near() {
   near_.resize(grid_.size());
+  for (std::vector<std::uint32_t>* list : {&overlapping_, &changed_, &strayed_}) {
+    list->reserve(grid_.size());
+  }
   parallel_ranges(grid_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t slot = begin; slot < end; ++slot) {
       Near& near = near_[slot];
@@ -80,38 +83,91 @@ void Separation::find_near() {
 }
 
 float Separation::look_around() {
-  drift_ = 0;
-  for (std::size_t slot = 0; slot < grid_.size(); ++slot) {
-    drift_ = std::max(drift_, (bodies_[slot].position - grid_.position(slot)).squaredNorm());
-  }
-  drift_ = std::sqrt(drift_);
+  strayed_.clear();
   parallel_ranges(grid_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t slot = begin; slot < end; ++slot) look_around(slot);
   });
-  ++round_;
+  changed_.resize(grid_.size());
+  std::iota(changed_.begin(), changed_.end(), 0U);
+  overlapping_.clear();
+  return keep_overlapping();
+}
+
+float Separation::look_again() {
+  for (const std::uint32_t slot : overlapping_) {
+    if (bodies_[slot].moved) note_strayed(slot);
+  }
+  changed_.clear();
+  const auto change = [&](std::size_t slot) {
+    if (bodies_[slot].changed) return;
+    bodies_[slot].changed = true;
+    changed_.push_back(static_cast<std::uint32_t>(slot));
+  };
+  for (const std::uint32_t slot : overlapping_) {
+    if (!bodies_[slot].moved) continue;
+    bodies_[slot].moved = false;
+    change(slot);
+    for_each_touched(slot, change);
+  }
+  parallel_ranges(changed_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) look_around(changed_[i]);
+  });
+  return keep_overlapping();
+}
+
+/// Makes the list of those who overlap; returns the max overlap.
+float Separation::keep_overlapping() {
+  std::erase_if(overlapping_, [&](std::uint32_t slot) { return bodies_[slot].changed; });
   float worst = 0;
-  for (const Body& body : bodies_) worst = std::max(worst, body.overlap);
+  for (const std::uint32_t slot : overlapping_) worst = std::max(worst, bodies_[slot].overlap);
+  for (const std::uint32_t slot : changed_) {
+    bodies_[slot].changed = false;
+    if (!(bodies_[slot].overlap > 0)) continue;
+    overlapping_.push_back(slot);
+    worst = std::max(worst, bodies_[slot].overlap);
+  }
   return worst;
+}
+
+void Separation::note_strayed(std::size_t slot) {
+  Body& body = bodies_[slot];
+  const float drift = (body.position - grid_.position(slot)).norm();
+  drift_ = std::max(drift_, drift);
+  if (body.strayed || 2 * drift <= kSlackM) return;
+  body.strayed = true;
+  strayed_.push_back(static_cast<std::uint32_t>(slot));
+}
+
+template <typename Act>
+void Separation::for_each_touched(std::size_t slot, const Act& act) const {
+  const Near& near = near_[slot];
+  if (near.count <= Near::kMany && !bodies_[slot].strayed) {
+    for (std::size_t i = 0; i < near.count; ++i) act(near.slots[i]);
+    for (const std::uint32_t other : strayed_) act(other);
+    return;
+  }
+  // It has come from at most twice the drift away, and others have drifted.
+  grid_.visit(bodies_[slot].position, grid_.radius(slot) + largest_radius_ + 3 * drift_, act);
 }
 
 void Separation::look_around(std::size_t slot) {
   Body& self = bodies_[slot];
   const Near& near = near_[slot];
-  const bool knows_near = near.count <= Near::kMany && 2 * drift_ < kSlackM;
-  const auto has_moved = [&](std::size_t other) { return bodies_[other].moved_round == round_; };
-  if (knows_near && !has_moved(slot) &&
-      std::none_of(near.slots.begin(), near.slots.begin() + near.count, has_moved)) {
-    return;
-  }
+  constexpr std::size_t kFew = 64;  // who strayed: looking at more takes longer than searching
+  const bool knows_near = near.count <= Near::kMany && !self.strayed && strayed_.size() <= kFew;
   self.overlap = 0;
   self.push.setZero();
-  if (knows_near) {
-    for (std::size_t i = 0; i < near.count; ++i) add_overlap(slot, near.slots[i]);
+  if (!knows_near) {
+    grid_.visit(self.position, grid_.radius(slot) + largest_radius_ + drift_,
+                [&](std::size_t other) {
+                  if (other != slot) add_overlap(slot, other);
+                });
     return;
   }
-  grid_.visit(self.position, grid_.radius(slot) + largest_radius_ + drift_, [&](std::size_t other) {
-    if (other != slot) add_overlap(slot, other);
-  });
+  for (std::size_t i = 0; i < near.count; ++i) {
+    if (!bodies_[near.slots[i]].strayed) add_overlap(slot, near.slots[i]);
+  }
+  for (const std::uint32_t other : strayed_) add_overlap(slot, other);
 }
 
 void Separation::add_overlap(std::size_t slot, std::size_t other) {
@@ -130,9 +186,10 @@ void Separation::add_overlap(std::size_t slot, std::size_t other) {
 
 void Separation::push_apart(const Crowd& crowd) {
   walls_.prepare();
-  parallel_ranges(grid_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(overlapping_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<Obstacles::Near>& walls = walls_.local();
-    for (std::size_t slot = begin; slot < end; ++slot) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t slot = overlapping_[i];
       Body& self = bodies_[slot];
       const float length = self.push.norm();
       if (!(length > 0)) continue;
@@ -140,7 +197,7 @@ void Separation::push_apart(const Crowd& crowd) {
       const float max_push_m = kStride * grid_.radius(slot);
       const Eigen::Vector2f push = std::min(1.0F, max_push_m / length) * self.push;
       self.position = kept_off_walls(crowd, slot, self.position + push, walls);
-      self.moved_round = round_;
+      self.moved = true;
     }
   });
 }
@@ -184,12 +241,11 @@ Eigen::Vector2f Separation::kept_off_walls(const Crowd& crowd, std::size_t slot,
 
 bool Separation::send_back() {
   bool any = false;
-  for (std::size_t slot = 0; slot < grid_.size(); ++slot) {
+  for (const std::uint32_t slot : overlapping_) {
     Body& body = bodies_[slot];
     if (body.stays || !(body.overlap > kTolerance)) continue;
     body.position = before_[grid_.id(slot)];
-    body.moved_round = round_;
-    body.stays = any = true;
+    body.moved = body.stays = any = true;
   }
   return any;
 }

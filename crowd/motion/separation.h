@@ -34,13 +34,15 @@ class Separation {
   struct Body {
     Eigen::Vector2f position;
     Eigen::Vector2f push;  // half of the sum of overlaps, away from the others
-    float clearance = 0;   // distance from walls, m; -1: not yet known
+    float clearance = -1;  // distance from walls, m; -1: not yet known
     float overlap = 0;     // max overlap, m
     bool stays = false;    // whether it returns to the position before the step
-    int moved_round = 0;   // last round in which it moved
+    bool strayed = false;  // whether it has moved so far that lists of those near do not hold
+    bool moved = false;    // whether it has moved in this round
+    bool changed = false;  // whether it is in the list of those whose surroundings have moved
   };
 
-  /// The slots that an agent may touch until somebody has moved by kSlackM / 2.
+  /// The slots that an agent may touch until it or they have moved by kSlackM / 2.
   struct Near {
     static constexpr std::size_t kMany = 12;
     std::size_t count = 0;  // above kMany: more than fit
@@ -50,10 +52,17 @@ class Separation {
 
   void sort(const Crowd& crowd);
   void find_near();
-  /// Computes overlaps and pushes; returns the max overlap.
+  /// Computes the overlaps and pushes of all; returns the max overlap.
   float look_around();
+  /// The same of those only whose surroundings have moved since.
+  float look_again();
   void look_around(std::size_t slot);
   void add_overlap(std::size_t slot, std::size_t other);
+  void note_strayed(std::size_t slot);
+  /// Calls act(slot) for the slots that a body which has moved may have begun or ceased to touch.
+  template <typename Act>
+  void for_each_touched(std::size_t slot, const Act& act) const;
+  float keep_overlapping();
   void push_apart(const Crowd& crowd);
   float clearance_before_m(const Crowd& crowd, std::size_t slot,
                            std::vector<Obstacles::Near>& walls) const;
@@ -64,12 +73,15 @@ class Separation {
   bool send_back();
 
   Grid grid_;        // positions after the step, before corrections
-  int round_ = 0;    // number of times that overlaps were computed in this step
   float drift_ = 0;  // max distance of an agent from that position, m
   float largest_radius_ = 0;
   std::vector<Eigen::Vector2f> before_;  // positions before the step, by agent
   std::vector<Body> bodies_;
   std::vector<Near> near_;
+  // Slots:
+  std::vector<std::uint32_t> overlapping_;
+  std::vector<std::uint32_t> changed_;  // whose surroundings have moved
+  std::vector<std::uint32_t> strayed_;
   PerThread<std::vector<Obstacles::Near>> walls_;
 };
 

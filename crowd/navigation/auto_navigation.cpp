@@ -16,7 +16,8 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr std::uint64_t kLooksPerChoice = 4;  // between paths
+constexpr std::uint64_t kLooksPerChoice = 4;   // between paths
+constexpr std::uint64_t kLooksPerRenewal = 8;  // of fields: queues change within 5 s
 
 std::uint64_t steps_between_looks(const Crowd& crowd) {
   constexpr double kEveryS = 0.5;
@@ -171,7 +172,7 @@ void AutoNavigation::observe(const Crowd& crowd) {
   everywhere_.build(crowd.agents);
   if (!has_fields()) return;
   congestion_.observe(crowd.agents);
-  if (crowd.step / steps_between_looks(crowd) % kLooksPerChoice == 0) renew_fields(crowd);
+  if (crowd.step / steps_between_looks(crowd) % kLooksPerRenewal == 0) renew_fields(crowd);
 }
 
 /// Renews the fields in use where people queue, and others that still count queues of before.

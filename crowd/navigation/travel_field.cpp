@@ -31,8 +31,8 @@ PortalTable::PortalTable(const NavMesh& mesh)
   for (std::size_t polygon = 0; polygon < mesh.polygons().size(); ++polygon) {
     for (const Portal& portal : mesh.polygons()[polygon].portals) {
       const int number = static_cast<int>(entries_.size());
-      constexpr float kSpacingM = 2;
-      constexpr int kMaxPoints = 17;
+      constexpr float kSpacingM = 4;
+      constexpr int kMaxPoints = 9;
       const float width = (portal.right - portal.left).norm();
       const int points = std::clamp(2 + static_cast<int>(width / kSpacingM), 2, kMaxPoints);
       entries_.push_back(
