@@ -12,6 +12,7 @@
 #include "crowd/description/menge_files/read.h"
 #include "crowd/elements/element.h"
 #include "crowd/motion/bodies.h"
+#include "crowd/motion/metered_doors.h"
 #include "crowd/motion/motion.h"
 #include "crowd/motion/separation.h"
 #include "crowd/navigation/elevation.h"
@@ -39,7 +40,8 @@ struct Simulation::State {
   std::unique_ptr<Model> model;
   std::unique_ptr<Separation> separation;  // where it is wanted
   std::unique_ptr<Bodies> bodies;          // where they give way
-  std::vector<Fall> falls;                 // in this step
+  MeteredDoors metered_doors;
+  std::vector<Fall> falls;  // in this step
   Grid grid;
   std::vector<Eigen::Vector2f> new_velocity;
 };
@@ -47,7 +49,7 @@ struct Simulation::State {
 Simulation::State::State(const SceneDescription& scene_description,
                          const BehaviorDescription& behavior_description,
                          const LoadOptions& load_options)
-    : options(load_options) {
+    : options(load_options), metered_doors({}, 0) {
   const bool words_are_zero = options.compat != Compat::none;
   Reading scene(scene_description, "Experiment", words_are_zero);
   Reading behavior(behavior_description, "BFSM", words_are_zero);
@@ -75,6 +77,7 @@ Simulation::State::State(const SceneDescription& scene_description,
   machine = std::make_unique<Machine>(std::move(made), count);
   model = entry.make(crowd);
   if (options.separation == BodySeparation::hard) separation = std::make_unique<Separation>(crowd);
+  metered_doors = MeteredDoors(options.metered_doors, count);
   if (options.physical.on) bodies = std::make_unique<Bodies>(options.physical, count);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
   machine->start(crowd);
@@ -101,9 +104,11 @@ void Simulation::State::sub_step() {
     bodies->react(crowd, grid, new_velocity);
     falls.insert(falls.end(), bodies->falls().begin(), bodies->falls().end());
   }
+  metered_doors.hold(crowd, new_velocity);
   if (separation) separation->remember(crowd);
   move(crowd, new_velocity);
   if (separation) separation->separate(crowd);
+  metered_doors.put_back(crowd);
   ++crowd.step;
   machine->run_processes_after(crowd);
 }

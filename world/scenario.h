@@ -19,6 +19,7 @@
 #include "world/building.h"
 #include "world/disasters.h"
 #include "world/ground.h"
+#include "world/imposed_capacity.h"
 #include "world/props.h"
 #include "world/semantic_class.h"
 #include "world/stand.h"
@@ -37,7 +38,7 @@ struct GoalRef {
 };
 
 /// A door: a segment on the ground that people cross to get out, without its ends that lie in
-/// buildings (world/exit_opening.h).
+/// buildings (world/exits/exit_opening.h).
 struct Exit {
   std::string id;
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m
@@ -52,6 +53,8 @@ struct Exit {
   std::optional<double> free_m = std::nullopt;
   /// The length of the segment in the file, if it is more.
   std::optional<double> drawn_m = std::nullopt;
+  /// A capacity that people who go out are held to.
+  std::optional<ImposedCapacity> capacity = std::nullopt;
 
   /// Whether people can leave here at the time of a step (s).
   bool is_open(double time_s) const {
@@ -62,6 +65,14 @@ struct Exit {
   /// The width that people can pass, on which all figures are based.
   double width_m() const { return free_m.value_or(length_m()); }
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
+};
+
+/// A door inside, which people pass in both directions: a segment on the ground.
+struct InnerDoor {
+  std::string id;
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
+  ImposedCapacity capacity;                        ///< of both directions together
 };
 
 /// A mesh file of the user (y up), placed in the world with its origin at `position`.
@@ -96,6 +107,7 @@ struct Scenario {
   std::string ground_material;  ///< "pavers", "asphalt", "grass", "concrete" or "dirt"
   geometry::Region inside;      ///< people who leave it have escaped
   std::vector<Exit> exits;
+  std::vector<InnerDoor> doors;
   std::vector<Building> buildings;
   std::vector<DroneStart> drones;
   /// Indices of agents that are not people, including those of `disasters`; neither rendered nor

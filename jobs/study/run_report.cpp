@@ -115,6 +115,7 @@ std::string closed_note(const metrics::ExitTotals& exit) {
 std::string exits_table(const MeasuredRun& run) {
   static constexpr std::array kColumns = {
       std::pair{"exits[].width_m", "width (m)"},
+      std::pair{"exits[].capacity_per_s", "capacity (1/s)"},
       std::pair{"exits[].crossings.out", "crossings out / in"},
       std::pair{"exits[].demand_flow_per_s", "flow with demand (1/s)"},
       std::pair{"exits[].demand_specific_flow_per_ms", "specific (1/(m s))"},
@@ -137,12 +138,14 @@ std::string exits_table(const MeasuredRun& run) {
       return flow ? fmt::format("{:.2f}", *flow / per) : std::string();
     };
     html += fmt::format(
-        "<tr><td>{}{}</td><td>{:.2f}</td><td>{} / {}</td><td>{}</td><td>{}</td><td>{:.1f}</td>"
+        "<tr><td>{}{}</td><td>{:.2f}</td><td>{:.2f} ({})</td><td>{} / "
+        "{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>"
         "<td>{:.1f}</td><td>{:.1f}</td><td>{}</td><td>{:.2f}</td><td>{}</td><td>{}</td>"
         "<td>{:.2f}</td><td>{:.3f}</td></tr>\n",
-        escaped_markup(exit.exit_id), closed_note(exit), exit.width_m, exit.crossings.out,
-        exit.crossings.in, flow_cell(1), flow_cell(exit.width_m), exit.demand_s, exit.congested_s,
-        exit.clogged_s, exit.clogs.size(), exit.mean_clogging_index, exit.max_queue,
+        escaped_markup(exit.exit_id), closed_note(exit), exit.width_m, exit.capacity_per_s,
+        exit.capacity_source, exit.crossings.out, exit.crossings.in, flow_cell(1),
+        flow_cell(exit.width_m), exit.demand_s, exit.congested_s, exit.clogged_s, exit.clogs.size(),
+        exit.mean_clogging_index, exit.max_queue,
         exit.gaps.max_duration_s ? fmt::format("{:.1f}", *exit.gaps.max_duration_s) : "",
         exit.max_voronoi_density_per_m2, exit.max_pressure_per_s2);
   }

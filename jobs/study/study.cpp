@@ -15,6 +15,7 @@
 #include "crowd/description/menge_files/write.h"
 #include "jobs/pipeline/checks/rehearsal.h"
 #include "jobs/pipeline/checks/resolve.h"
+#include "metrics/exits/exit_state.h"
 #include "places/scenarios/blueprint/load_scenario.h"
 #include "spec/study/study_document.h"
 #include "world/scenario_crowd.h"
@@ -184,9 +185,8 @@ class StudyReader {
   }
 
   void read_reference(const ReferenceDocument& given, Case& one) {
-    constexpr double kPerMeterSecond = 1.3;  // people; as in docs/metrics.md
     for (const world::Exit& exit : one.scenario.exits) {
-      one.reference.capacity_per_s.push_back(kPerMeterSecond * exit.width_m());
+      one.reference.capacity_per_s.push_back(metrics::capacity_per_s(exit));
     }
     if (given.speed_mps) one.reference.speed_mps = *given.speed_mps;
     if (!given.capacity_per_s) return;

@@ -159,9 +159,19 @@ class LowerBound {
   }
 
  private:
+  /// That of the model, or the imposed one if it is less.
+  DoorCapacity capacity_of(const world::Exit& exit) const {
+    DoorCapacity capacity = door_capacity(model_, exit.width_m());
+    if (!exit.capacity) return capacity;
+    constexpr double kImposedBurst = 2;  // admitted people may pass together
+    const double imposed = exit.capacity->per_s_at(exit.width_m());
+    if (imposed < capacity.rate_per_s) capacity = {kImposedBurst, imposed};
+    return capacity;
+  }
+
   void make_doors() {
     for (const world::Exit& exit : scenario_.exits) {
-      const DoorCapacity capacity = door_capacity(model_, exit.width_m());
+      const DoorCapacity capacity = capacity_of(exit);
       doors_.capacity_per_s.push_back(exit.open ? capacity.rate_per_s : 0);
       doors_.burst.push_back(capacity.burst);
       doors_.on_s.push_back(max_mps_ > 0 ? beyond_s(scenario_, exit, max_mps_) : kNever);
@@ -174,7 +184,7 @@ class LowerBound {
       doors_.on_s[e] = std::min(doors_.on_s[e], *people_[i]->escaped_s - passage.time_s);
       // People who know of nothing pass doors that are closed to the others.
       if (doors_.capacity_per_s[e] <= 0) {
-        doors_.capacity_per_s[e] = door_capacity(model_, scenario_.exits[e].width_m()).rate_per_s;
+        doors_.capacity_per_s[e] = capacity_of(scenario_.exits[e]).rate_per_s;
         doors_.closes_at_s[e] = 0;
       }
       doors_.closes_at_s[e] =
@@ -302,7 +312,7 @@ std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<WalkingDistance>& distances) {
   std::vector<double> capacities;
   for (const world::Exit& exit : scenario.exits) {
-    capacities.push_back(capacity_per_s(exit.width_m()));
+    capacities.push_back(capacity_per_s(exit));
   }
   return reference_times(
       scenario, people, alarm, end_s, knowledge, capacities,

@@ -65,11 +65,13 @@ struct Passage {
 struct ExitSeries {
   std::string exit_id;
   double width_m = 0;
+  double capacity_per_s = 0;  ///< people, while open (metrics/exits/exit_state.h)
+  std::string capacity_source = "nominal";
   double zone_area_m2 = 0;
-  std::vector<ExitSample> samples;     ///< one per trace step
-  std::vector<Passage> passages = {};  ///< in order of time
-  std::vector<ClogEvent> clogs = {};   ///< in order of time
-  EdieRegion edie = {};                ///< people who intend the exit, over the zone during demand
+  std::vector<ExitSample> samples = {};  ///< one per trace step
+  std::vector<Passage> passages = {};    ///< in order of time
+  std::vector<ClogEvent> clogs = {};     ///< in order of time
+  EdieRegion edie = {};  ///< people who intend the exit, over the zone during demand
 };
 
 }  // namespace throng::metrics

@@ -21,7 +21,16 @@ constexpr double kFreeSpeed = 0.6;    // of the desired speed: no slower than a 
 
 }  // namespace
 
-double capacity_per_s(double width_m) { return kSpecificFlow * width_m; }
+double nominal_capacity_per_s(double width_m) { return kSpecificFlow * width_m; }
+
+double capacity_per_s(const world::Exit& exit) {
+  return exit.capacity ? exit.capacity->per_s_at(exit.width_m())
+                       : nominal_capacity_per_s(exit.width_m());
+}
+
+std::string capacity_source(const world::Exit& exit) {
+  return exit.capacity ? exit.capacity->text() : "nominal";
+}
 
 double clogging_index(const ExitSample& sample, const ExitDemand& demand, double capacity_per_s) {
   if (!demand.demand) return 0;
@@ -34,9 +43,10 @@ double clogging_index(const ExitSample& sample, const ExitDemand& demand, double
   return density * (0.5 * flow_lack + 0.5 * speed_lack);
 }
 
-double clog_after_s(double width_m) { return std::max(2.0, 3.0 / capacity_per_s(width_m)); }
+double clog_after_s(double capacity_per_s) { return std::max(2.0, 3.0 / capacity_per_s); }
 
-ExitStateMachine::ExitStateMachine(double width_m) : clog_after_s_(clog_after_s(width_m)) {}
+ExitStateMachine::ExitStateMachine(double capacity_per_s)
+    : clog_after_s_(clog_after_s(capacity_per_s)) {}
 
 ExitState ExitStateMachine::step(double time_s, bool open, const ExitSample& sample,
                                  const ExitDemand& demand) {

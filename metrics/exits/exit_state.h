@@ -2,16 +2,24 @@
 // hysteresis; and the clogging index.
 #pragma once
 
+#include <string>
+
 #include "metrics/exits/exit_samples.h"
+#include "world/scenario.h"
 
 namespace throng::metrics {
 
-/// Nominal capacity (people/s) of an exit: 1.3 per meter of width and second.
-double capacity_per_s(double width_m);
+/// Capacity (people/s) of an exit: that which the scenario imposes, else the nominal one, 1.3 per
+/// meter of width and second.
+double capacity_per_s(const world::Exit& exit);
+/// The nominal capacity of a width.
+double nominal_capacity_per_s(double width_m);
+/// Where an exit's capacity is from, for reports: "nominal", or as ImposedCapacity::text().
+std::string capacity_source(const world::Exit& exit);
 
 /// Duration (s) without a passage outward at which congestion becomes a clog: max(2 s, 3 /
 /// capacity).
-double clog_after_s(double width_m);
+double clog_after_s(double capacity_per_s);
 
 /// Inputs of the state in addition to the sample.
 struct ExitDemand {
@@ -26,7 +34,7 @@ double clogging_index(const ExitSample& sample, const ExitDemand& demand, double
 /// The state machine of one exit.
 class ExitStateMachine {
  public:
-  explicit ExitStateMachine(double width_m);
+  explicit ExitStateMachine(double capacity_per_s);
 
   /// Returns the state after a step at `time_s` with the sample's density, speed and time since the
   /// last crossing outward; ExitState::closed if the door is not `open`.

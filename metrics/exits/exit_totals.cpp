@@ -57,7 +57,8 @@ ExitTotals sum_exit(const ExitSeries& series, double dt_s) {
   const auto time_in = [&](ExitState state) {
     return totals.state_s[static_cast<std::size_t>(state)];
   };
-  totals.capacity_per_s = open_share(series.samples) * capacity_per_s(series.width_m);
+  totals.capacity_per_s = open_share(series.samples) * series.capacity_per_s;
+  totals.capacity_source = series.capacity_source;
   totals.clogged_s = time_in(ExitState::clogged);
   totals.congested_s = time_in(ExitState::congested) + totals.clogged_s;
   if (totals.demand_s > 0) {
@@ -67,7 +68,7 @@ ExitTotals sum_exit(const ExitSeries& series, double dt_s) {
   std::vector<double> crossings_s;
   for (const Passage& passage : series.passages) crossings_s.push_back(passage.time_s);
   if (!crossings_s.empty()) totals.last_crossing_s = crossings_s.back();
-  totals.clog_after_s = clog_after_s(series.width_m);
+  totals.clog_after_s = clog_after_s(series.capacity_per_s);
   totals.gaps = gap_figures(crossings_s, totals.clog_after_s);
   totals.clogs = series.clogs;
   totals.edie = series.edie;
@@ -155,6 +156,7 @@ json to_json(const ExitTotals& totals) {
   return {{"id", totals.exit_id},
           {"width_m", totals.width_m},
           {"capacity_per_s", totals.capacity_per_s},
+          {"capacity_source", totals.capacity_source},
           {"crossings", {{"out", totals.crossings.out}, {"in", totals.crossings.in}}},
           {"net_out", totals.net_out()},
           {"share_of_net_out", totals.share},

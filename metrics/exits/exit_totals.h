@@ -18,6 +18,7 @@ struct ExitTotals {
   std::string exit_id;
   double width_m = 0;              ///< that people can pass
   double capacity_per_s = 0;       ///< mean over the run; 0 while closed
+  std::string capacity_source;     ///< metrics/exits/exit_state.h
   DoorCounts crossings;            ///< numbers of crossings
   double share = 0;                ///< share of the sum of net_out() over all exits
   double mean_clogging_index = 0;  ///< mean over the time with demand

@@ -206,13 +206,17 @@ class ExitObserver {
         mean_radius_m_(mean_radius_m(exit.trace.header)),
         demand_from_(demand_from(exit.exit.width_m(), mean_radius_m_)),
         door_(line, inside, exit.people.size()),
-        state_(exit.exit.width_m()),
+        state_(capacity_per_s(exit.exit)),
         pressure_(exit.zone, exit.trace.header.dt_s),
-        wait_(exit.exit.width_m(), mean_radius_m_, exit.trace.header.dt_s) {}
+        wait_(exit.exit, mean_radius_m_, exit.trace.header.dt_s) {}
 
   ExitSeries observe() {
     const Trace& trace = at_exit_.trace;
-    ExitSeries series{at_exit_.exit.id, at_exit_.exit.width_m(), at_exit_.zone.area_m2(), {}};
+    ExitSeries series{.exit_id = at_exit_.exit.id,
+                      .width_m = at_exit_.exit.width_m(),
+                      .capacity_per_s = capacity_per_s(at_exit_.exit),
+                      .capacity_source = capacity_source(at_exit_.exit),
+                      .zone_area_m2 = at_exit_.zone.area_m2()};
     series.samples.reserve(trace.steps());
     const auto window = static_cast<std::size_t>(std::lround(kFlowWindowS / trace.header.dt_s));
     for (std::size_t step = 0; step < trace.steps(); ++step) {
@@ -269,7 +273,7 @@ class ExitObserver {
     const bool open = exit.is_open(time_s);
     sample.state = state_.step(time_s, open, sample, demand);
     if (open) {
-      sample.clogging_index = clogging_index(sample, demand, capacity_per_s(exit.width_m()));
+      sample.clogging_index = clogging_index(sample, demand, capacity_per_s(exit));
     }
     return sample;
   }

@@ -112,8 +112,9 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
   return queue;
 }
 
-WaitPredictor::WaitPredictor(double width_m, double mean_radius_m, double dt_s)
-    : width_m_(width_m),
+WaitPredictor::WaitPredictor(const world::Exit& exit, double mean_radius_m, double dt_s)
+    : width_m_(exit.width_m()),
+      per_ms_(capacity_per_s(exit) / exit.width_m()),
       mean_radius_m_(mean_radius_m),
       dt_s_(dt_s),
       window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kWindowS / dt_s)))) {}
@@ -138,7 +139,7 @@ double WaitPredictor::step(const Queue& queue, int crossed_out) {
   const double queued_s = static_cast<double>(queued_steps_) * dt_s_;
   const double used_m =
       std::max(kMinLaneM, std::min(width_m_, queue.breadth_m + 2 * mean_radius_m_));
-  const double rate = (served_ + capacity_per_s(used_m) * kPriorS) / (queued_s + kPriorS);
+  const double rate = (served_ + per_ms_ * used_m * kPriorS) / (queued_s + kPriorS);
   return queue.people / rate;
 }
 

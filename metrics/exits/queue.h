@@ -35,7 +35,7 @@ class WaitPredictor {
   static constexpr double kPriorS = 10;
 
   /// For a door of this width, people of this mean radius, and steps of `dt_s`.
-  WaitPredictor(double width_m, double mean_radius_m, double dt_s);
+  WaitPredictor(const world::Exit& exit, double mean_radius_m, double dt_s);
 
   /// Adds a step and returns the predicted wait (s). `crossed_out`: outward crossings since the
   /// start.
@@ -47,7 +47,7 @@ class WaitPredictor {
     int out = 0;
   };
 
-  double width_m_, mean_radius_m_, dt_s_;
+  double width_m_, per_ms_, mean_radius_m_, dt_s_;
   std::size_t window_;
   std::deque<Step> last_;
   std::size_t queued_steps_ = 0;  ///< steps with a queue in the window

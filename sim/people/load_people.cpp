@@ -1,6 +1,7 @@
 #include "sim/people/load_people.h"
 
 #include <utility>
+#include <vector>
 
 #include "spec/skinning/styling.h"
 #include "world/scenario_crowd.h"
@@ -13,6 +14,24 @@ namespace {
 // 1.05 m long) or a case; narrow enough for doors. Estimated, as is the speed.
 constexpr float kLeaderRadiusM = 0.4F;
 constexpr float kLeaderSpeed = 0.9F;  // share of that without
+
+std::vector<crowd::MeteredDoor> metered_doors(const world::Scenario& scenario) {
+  std::vector<crowd::MeteredDoor> doors;
+  for (const world::Exit& exit : scenario.exits) {
+    if (!exit.capacity) continue;
+    const auto per_s = static_cast<float>(exit.capacity->per_s_at(exit.width_m()));
+    doors.push_back(
+        {exit.from.cast<float>(), exit.to.cast<float>(), exit.outward.cast<float>(), per_s, false});
+  }
+  for (const world::InnerDoor& door : scenario.doors) {
+    const Eigen::Vector2d along = door.to - door.from;
+    const auto per_s = static_cast<float>(door.capacity.per_s_at(along.norm()));
+    doors.push_back({door.from.cast<float>(), door.to.cast<float>(),
+                     Eigen::Vector2d(-along.y(), along.x()).normalized().cast<float>(), per_s,
+                     true});
+  }
+  return doors;
+}
 
 }  // namespace
 
@@ -33,6 +52,7 @@ crowd::Simulation load_people(const world::Scenario& scenario, std::uint64_t see
   options.constants = spec.constants;
   options.compliance = spec.compliance;
   options.physical = spec.physical;
+  options.metered_doors = metered_doors(scenario);
   options.can_step = false;
   crowd::Simulation people(description.scene, description.behavior, options);
   for (std::size_t agent = 0; agent < people.agent_count(); ++agent) {

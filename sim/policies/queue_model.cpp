@@ -20,6 +20,11 @@ constexpr double kLearning = 0.02;  // per look, of the rate
 constexpr double kMinSpeedPart = 0.5;
 constexpr double kMaxSpeedPart = 1.5;
 
+double prior_per_s(const world::Exit& exit) {
+  return exit.capacity ? exit.capacity->per_s_at(exit.width_m())
+                       : kPriorPerMeterSecond * exit.width_m();
+}
+
 }  // namespace
 
 QueueModel::QueueModel(const world::Scenario& scenario)
@@ -27,7 +32,7 @@ QueueModel::QueueModel(const world::Scenario& scenario)
       people_(scenario.exits.size()),
       habits_(scenario.exits.size(), std::vector<double>(scenario.exits.size())) {
   for (const world::Exit& exit : scenario.exits) {
-    capacity_per_s_.push_back(kPriorPerMeterSecond * exit.width_m());
+    capacity_per_s_.push_back(prior_per_s(exit));
   }
 }
 
@@ -57,7 +62,7 @@ void QueueModel::update(const WorldView& view, int self) {
   }
   for (std::size_t e = 0; e < people_.size(); ++e) {
     if (pressing[e] < kPressPeople) continue;
-    const double prior = kPriorPerMeterSecond * scenario_.exits[e].width_m();
+    const double prior = prior_per_s(scenario_.exits[e]);
     const double learned =
         capacity_per_s_[e] + kLearning * (view.exit_flow_per_s[e] - capacity_per_s_[e]);
     capacity_per_s_[e] = std::clamp(learned, kMinSpeedPart * prior, kMaxSpeedPart * prior);

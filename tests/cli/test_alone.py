@@ -5,7 +5,7 @@ import json
 import pathlib
 import unittest
 
-from program import FolderTest, printed
+from program import FolderTest, printed, write_json
 
 YARD = {
     "$schema": "schemas/blueprint.schema.json",
@@ -65,6 +65,23 @@ class Alone(FolderTest):
         )
         self.assertTrue(images)
         self.throng("report", "out", "-o", "again.html", scenarios="gone")
+
+    def test_an_exit_with_a_capacity_passes_no_more(self):
+        yard = json.loads(json.dumps(YARD))
+        yard["exits"][0]["capacity"] = {"device": "full_height_turnstile"}
+        yard["doors"] = [{"id": "line", "from": [-6, -11], "to": [-6, 11], "capacity": {"per_s": 100}}]
+        write_json(self.folder / "yard.blueprint.json", yard)
+        self.simulated({"scenario": "yard", "capture": {"to_s": 60}})
+        exit = json.loads(self.throng("metrics", "run.h5"))["exits"][0]
+        self.assertEqual(exit["capacity_source"], "1 x full_height_turnstile")
+        self.assertAlmostEqual(exit["capacity_per_s"], 20 / 60)
+        gaps = exit["gaps"]["list_s"]
+        self.assertGreater(len(gaps), 8, "most of the 12 have left")
+        # Somebody who is admitted needs up to a second to the line.
+        self.assertGreater(min(gaps), 1.5)
+        self.assertGreater(sum(gaps), 3 * (len(gaps) - 1))
+        self.throng("report", "run.h5", "-o", "report.html")
+        self.assertIn("0.33 (1 x full_height_turnstile)", (self.folder / "report.html").read_text())
 
     def test_no_drone_is_needed_to_simulate(self):
         self.simulated({"scenario": "yard", "capture": {"to_s": 2}})

@@ -154,7 +154,8 @@ TEST(RunMetrics, SumsUpEachExit) {
 }
 
 TEST(RunMetrics, TimeInStatesIsThatOfTheSamples) {
-  ExitSeries series{"door", 2, 10, std::vector<ExitSample>(100)};
+  ExitSeries series{
+      .exit_id = "door", .width_m = 2, .zone_area_m2 = 10, .samples = std::vector<ExitSample>(100)};
   for (int i = 40; i < 100; ++i) {
     series.samples[i].state = i < 60   ? ExitState::flowing
                               : i < 75 ? ExitState::congested

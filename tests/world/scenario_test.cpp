@@ -140,6 +140,40 @@ TEST_F(ScenarioFile, ADoorMayCloseAtATime) {
   EXPECT_EQ(list_problems(document.dump()).front().where, "/exits/0/closes_at_s");
 }
 
+TEST_F(ScenarioFile, DoorsMayHaveACapacity) {
+  json document = valid_scenario();
+  document["exits"][0]["capacity"] = {{"code", "sfpe"}};
+  document["doors"] = {{{"id", "gates"},
+                        {"from", {0, 0}},
+                        {"to", {0, 3}},
+                        {"capacity", {{"device", "ticket_gate"}, {"devices", 4}}}}};
+  const Scenario s = load(document);
+  ASSERT_TRUE(s.exits[0].capacity);
+  EXPECT_EQ(s.exits[0].capacity->text(), "sfpe");
+  EXPECT_FALSE(s.exits[1].capacity);
+  ASSERT_EQ(s.doors.size(), 1U);
+  EXPECT_NEAR(s.doors[0].capacity.per_s_at(3), 100.0 / 60, 1e-12);
+}
+
+TEST_F(ScenarioFile, ACapacityIsGivenInOneWay) {
+  const auto problem_of = [this](const json& capacity) {
+    json document = valid_scenario();
+    document["exits"][0]["capacity"] = capacity;
+    const std::vector<Problem> problems = list_problems(document.dump());
+    EXPECT_EQ(problems.size(), 1U) << capacity;
+    return problems.empty() ? Problem{} : problems.front();
+  };
+  EXPECT_EQ(problem_of(json::object()).where, "/exits/0/capacity");
+  EXPECT_EQ(problem_of({{"per_s", 1}, {"code", "imo"}}).found, "\"per_s\" and \"code\"");
+  EXPECT_EQ(problem_of({{"code", "imo"}, {"devices", 2}}).where, "/exits/0/capacity/devices");
+  EXPECT_THAT(problem_of({{"code", "sfp"}}).expected, HasSubstr("sfpe"));
+  EXPECT_EQ(problem_of({{"per_s", 0}}).where, "/exits/0/capacity/per_s");
+  json narrow = valid_scenario();
+  narrow["doors"] = {
+      {{"id", "d"}, {"from", {0, 0}}, {"to", {0, 0.3}}, {"capacity", {{"code", "sfpe"}}}}};
+  EXPECT_EQ(list_problems(narrow.dump()).front().where, "/doors/0/capacity/code");
+}
+
 TEST_F(ScenarioFile, ExitsThatCountTheSamePeopleAreRefused) {
   json document = valid_scenario();
   document["exits"].push_back({{"id", "c"}, {"from", {10.5, 0}}, {"to", {10.5, 3}}});

@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "base/json/json_describe.h"
-#include "world/exit_overlap.h"
+#include "world/exits/exit_overlap.h"
+#include "world/fields/capacity_fields.h"
 #include "world/fields/document_values.h"
 
 namespace throng::world {
@@ -52,6 +53,11 @@ const FieldTable<Exit>& exit_fields() {
              "files must say so too.")
         .without_default()
         .renamed_from("shuts_s");
+    table
+        .add_object("capacity", capacity_fields(), at(&Exit::capacity),
+                    "Capacity that people who go out are held to, whatever the pedestrian model "
+                    "does; default: none.")
+        .without_default();
     return table;
   }();
   return fields;
@@ -92,11 +98,37 @@ void check_exit(Exit& exit, const json& value, const geometry::Region& inside,
   } else {
     exit.to = exit.from;  // nothing is in its way
   }
+  if (exit.capacity && has_valid(value, "capacity", place)) {
+    check_capacity(*exit.capacity, exit.length_m(), value["capacity"], place.below("capacity"));
+  }
   if (!exit.open && std::isfinite(exit.closes_at_s)) {
     const char* field = value.contains("closes_at_s") ? "closes_at_s" : "shuts_s";
     place.below(field).reject("a time, though the door is never open", "none");
   }
 }
+
+}  // namespace
+
+const FieldTable<InnerDoor>& inner_door_fields() {
+  static const FieldTable<InnerDoor> fields = [] {
+    FieldTable<InnerDoor> table;
+    add_id(table);
+    table.add("from", "", "m", points(), at(&InnerDoor::from), "One end of the door.").required();
+    table.add("to", "", "m", points(), at(&InnerDoor::to), "The other end of the door.").required();
+    table
+        .add_read(
+            "capacity", fields::object_with(capacity_fields().schema()),
+            [](InnerDoor& door, const json& value, const FieldLocation& place) {
+              capacity_fields().read_checked(value, door.capacity, place);
+            },
+            "Capacity of both directions together.")
+        .required();
+    return table;
+  }();
+  return fields;
+}
+
+namespace {
 
 /// Rejects goals that an exit before has.
 void check_goals(const std::vector<Exit>& exits, const FieldLocation& place) {
@@ -132,6 +164,18 @@ void check_exits(Scenario& scenario, const json& list, const FieldLocation& plac
   check_ids(exits, place);
   check_goals(exits, place);
   if (!place.has_problem()) check_overlaps(exits, place);
+}
+
+void check_inner_doors(Scenario& scenario, const json& list, const FieldLocation& place) {
+  for (std::size_t i = 0; i < scenario.doors.size(); ++i) {
+    const InnerDoor& door = scenario.doors[i];
+    const FieldLocation at_door = place.below(i);
+    check_ends(door.from, door.to, kNarrowestExitM, list[i], at_door);
+    if (!has_valid(list[i], "capacity", at_door)) continue;
+    check_capacity(door.capacity, (door.to - door.from).norm(), list[i]["capacity"],
+                   at_door.below("capacity"));
+  }
+  check_ids(scenario.doors, place);
 }
 
 }  // namespace throng::world

@@ -1,4 +1,4 @@
-// Fields of a scenario's exits, and their rules.
+// Fields of a scenario's exits and doors inside, and their rules.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,5 +16,12 @@ const fields::FieldTable<Exit>& exit_fields();
 /// Scenario::inside.
 void check_exits(Scenario& scenario, const nlohmann::json& list,
                  const fields::FieldLocation& place);
+
+/// The fields of a door inside.
+const fields::FieldTable<InnerDoor>& inner_door_fields();
+
+/// Checks the doors inside that were read.
+void check_inner_doors(Scenario& scenario, const nlohmann::json& list,
+                       const fields::FieldLocation& place);
 
 }  // namespace throng::world

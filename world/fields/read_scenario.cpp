@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "world/exit_opening.h"
+#include "world/exits/exit_opening.h"
 #include "world/extended_document.h"
 #include "world/fields/scenario_fields.h"
 

@@ -165,6 +165,11 @@ void add_parts(FieldTable<Scenario>& table) {
       .expecting("a list of at least one exit")
       .checked(check_exits)
       .required();
+  table
+      .add_list("doors", inner_door_fields(), at(&Scenario::doors),
+                "Doors inside, turnstiles and ticket gates whose capacity people are held to: "
+                "segments on the ground. Walls beside them are buildings.")
+      .checked(check_inner_doors);
   table.add_list("buildings", building_fields(), at(&Scenario::buildings), "Buildings and walls.")
       .checked([](const Scenario& scenario, const json& /*list*/, const FieldLocation& place) {
         check_ids(scenario.buildings, place);
