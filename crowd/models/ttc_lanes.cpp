@@ -164,7 +164,7 @@ struct TtcKernel {
     queue.count = 0;
   }
 
-  /// What a group of agents sees and wants.
+  /// The motion that a group of agents begins with, by all that they see.
   template <int kWidth>
   static typename TtcMotion<kWidth>::Movers lanes(const TtcBatch::Setting& setting,
                                                   std::size_t first, TtcBatch& batch) {

@@ -64,7 +64,10 @@ class TtcBatch {
   /// Reserves memory for so many neighbors and walls per agent.
   TtcBatch(std::size_t neighbors, std::size_t walls);
 
-  void clear() { agents_.clear(); }
+  void clear() {
+    agents_.clear();
+    wall_count_.fill(0);
+  }
   std::size_t size() const { return agents_.size(); }
   /// Adds an agent; add_wall() then adds its walls.
   void add(const View& view);

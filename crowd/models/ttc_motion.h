@@ -2,7 +2,7 @@
 // integration. For kernels only (base/compute/simd.h).
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +13,7 @@
 
 namespace throng::crowd {
 
+/// The motion of kWidth agents, one per lane.
 template <int kWidth>
 struct TtcMotion {
   using Float = typename Vectors<kWidth>::Float;
@@ -26,8 +27,8 @@ struct TtcMotion {
   /// Weaker forces on somebody who touches nobody change little within a step: one evaluation is
   /// enough.
   static constexpr float kCalmForce = 0.05F;  // m/s^2
-  static constexpr float kMinRelativeSpeedSq =
-      1e-4F;                                   // m^2/s^2: relative velocities below never collide
+  /// Relative velocities below never collide, m^2/s^2.
+  static constexpr float kMinRelativeSpeedSq = 1e-4F;
   static constexpr float kBehind = 0.3F;       // weight of others who are not in view
   static constexpr float kView = -0.2F;        // cosine of the edge of the view
   static constexpr float kMaxForce = 15;       // m/s^2
@@ -35,8 +36,8 @@ struct TtcMotion {
   static constexpr float kWall = 10;           // m/s^2 at a wall
   static constexpr float kWallRangeM = 0.03F;  // over which that falls to 1/e
   static constexpr float kAtWallM = 0.15F;     // wall forces farther away hardly change in a step
-  static constexpr float kShuffleMps =
-      0.1F;  // forces make nobody faster than this or than they want to be
+  /// Forces make nobody faster than this or than they want to be.
+  static constexpr float kShuffleMps = 0.1F;
 
   /// Agents that move, one per lane. All members have four bytes per lane (see copy_lane()).
   struct Movers {
@@ -78,8 +79,8 @@ struct TtcMotion {
 
   /// How a step is divided.
   struct Steps {
-    /// What is left of the difference from a velocity that is aimed at after some of them, and its
-    /// sum over them.
+    /// The share that is left, after some of them, of the difference from a velocity that is aimed
+    /// at, and its sum over them.
     struct Relaxation {
       float left = 1;
       float sum = 0;

@@ -14,7 +14,7 @@ namespace throng::metrics {
 double capacity_per_s(const world::Exit& exit);
 /// The nominal capacity of a width.
 double nominal_capacity_per_s(double width_m);
-/// Where an exit's capacity is from, for reports: "nominal", or as ImposedCapacity::text().
+/// The source of an exit's capacity, for reports: "nominal", or as ImposedCapacity::text().
 std::string capacity_source(const world::Exit& exit);
 
 /// Duration (s) without a passage outward at which congestion becomes a clog: max(2 s, 3 /

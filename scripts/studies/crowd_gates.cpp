@@ -8,6 +8,7 @@
 // - fd_DENSITY: specific flow in a ring 3 m wide, 1/(m s)
 // - ring_WIDTH_DENSITY: the same in a ring of another width
 // - door_WIDTH: specific flow through a door, 1/(m s)
+// - wide_3: specific flow of 348 people through an opening of 3 m into the open, 1/(m s)
 // - geometry_WIDTH_DEPTH_ROOM_CUT: people per second through such a door
 // - straight_WIDTH, corner_WIDTH, corner_thin_WIDTH: specific flow out of a corridor that is
 // straight
@@ -86,6 +87,10 @@ void add_flows(std::vector<Gate>& all) {
 }
 
 void add_geometries(std::vector<Gate>& all) {
+  static constexpr Bottleneck kWide{.width_m = 3, .wall_m = 0.1, .people = 348, .room_m = 8};
+  all.push_back({"wide_3", [](const Tested& t, std::uint64_t seed) {
+                   return Numbers{specific_flow(t, kWide, seed)};
+                 }});
   for (const double width : {0.5, 0.7, 0.8, 1.0, 1.2}) {
     for (const Bottleneck& door : drawn_doors(width, true)) {
       all.push_back(

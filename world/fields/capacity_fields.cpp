@@ -22,7 +22,7 @@ constexpr double kMaxPerS = 1000;
 constexpr double kMaxPerMs = 10;
 constexpr int kMaxDevices = 1000;
 
-fields::Values names_of(std::span<const CapacityRule> rules) {
+fields::Values rule_names(std::span<const CapacityRule> rules) {
   std::vector<std::string> names;
   for (const CapacityRule& rule : rules) names.emplace_back(rule.name);
   return fields::one_of_words(names);
@@ -53,11 +53,11 @@ const FieldTable<ImposedCapacity>& capacity_fields() {
              at(&ImposedCapacity::per_ms), "People per second and meter of the width.")
         .without_default();
     table
-        .add("code", "", "", names_of(capacity_codes()), at(&ImposedCapacity::code),
+        .add("code", "", "", rule_names(capacity_codes()), at(&ImposedCapacity::code),
              help_for("A building code", capacity_codes()))
         .without_default();
     table
-        .add("device", "", "", names_of(capacity_devices()), at(&ImposedCapacity::device),
+        .add("device", "", "", rule_names(capacity_devices()), at(&ImposedCapacity::device),
              help_for("Devices that let people pass one by one", capacity_devices()))
         .without_default();
     table.add("devices", "", "", fields::integers(1, kMaxDevices), at(&ImposedCapacity::devices),

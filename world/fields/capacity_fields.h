@@ -8,7 +8,7 @@ namespace throng::world {
 
 const fields::FieldTable<ImposedCapacity>& capacity_fields();
 
-/// Adds problems for a capacity that is given in two ways or in none, and for a door that a code
+/// Adds problems for a capacity that is given twice or not at all, and for a door that a code
 /// gives no width.
 void check_capacity(const ImposedCapacity& capacity, double width_m, const nlohmann::json& value,
                     const fields::FieldLocation& place);

@@ -85,15 +85,28 @@ void draw_obstacles(const crowd::Obstacles& obstacles, Sheet& sheet) {
   }
 }
 
+constexpr double kDoorPx = 5;
+
+std::string capacity_text(const world::Exit& exit) {
+  return exit.capacity ? fmt::format(", {}", exit.capacity->text()) : "";
+}
+
+void draw_inner_doors(const Scenario& scenario, Sheet& sheet) {
+  for (const world::InnerDoor& door : scenario.doors) {
+    sheet.line(std::array{door.from, door.to}, colors::kOpenExit, kDoorPx);
+    sheet.label(door.to, {4, -6}, fmt::format("{}, {}", door.id, door.capacity.text()),
+                colors::kOpenExit);
+  }
+}
+
 void draw_exits(const Scenario& scenario, Sheet& sheet) {
-  constexpr double kDoorPx = 5;
   for (const world::Exit& exit : scenario.exits) {
     const Color& color = exit.open ? colors::kOpenExit : colors::kClosedExit;
     sheet.line(std::array{exit.from, exit.to}, color, kDoorPx);
     // Beyond the door, where nothing else is written.
     constexpr double kBesideM = 1.2;
     sheet.label(exit.middle() + kBesideM * exit.outward, {exit.outward.x() < -0.5 ? -90.0 : 4.0, 4},
-                fmt::format("{} {:.3g} m", exit.id, exit.width_m()), color);
+                fmt::format("{} {:.3g} m{}", exit.id, exit.width_m(), capacity_text(exit)), color);
   }
 }
 
@@ -237,6 +250,7 @@ drawing::Drawing draw_plan(const Scenario& scenario, int size_px,
   draw_people(loaded, sheet);
   draw_flows(scenario, loaded, routes, sheet);
   draw_exits(scenario, sheet);
+  draw_inner_doors(scenario, sheet);
   if (paths.empty()) {
     draw_drones(scenario, sheet);
   } else {
