@@ -22,8 +22,8 @@ struct ModelRow {
 // karamouzas do not keep bodies apart, so that people pass through each other and through jambs.
 constexpr std::array kModels = {
     ModelRow{"ttc",
-             {2.35, 2.8, 3.15, 4.2, 5.2, 7.45, 9.7, 14.05, 22.65, 44.1},
-             {1.9, 2.2, 1.9, 1.8, 2.8, 3.5, 5.3, 9.8, 13.4, 26.8}},
+             {2.25, 2.65, 3.05, 4, 4.95, 7.3, 9.4, 13.75, 22.45, 43.6},
+             {2, 2.1, 2, 2, 3, 3.7, 5, 8.5, 12.6, 25.4}},
     ModelRow{"orca",
              {4.1, 5.5, 7.05, 9.7, 13.2, 26.3, 36.7, 48.95, 76.12, 148.62},
              {7.3, 13, 7.6, 12.3, 18.6, 42, 113, 166.6, 179.8, 189.3}},
