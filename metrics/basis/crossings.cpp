@@ -75,7 +75,8 @@ int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position,
   const double was_beyond = line.beyond_m(*last_);
   if (is_outside != (was_beyond >= 0)) {
     const bool by_door = line.leads_through_door(*last_, position);
-    has_left_ = is_outside && by_door;
+    // The line's continuation may be crossed far from the door, on the way around a building.
+    if (by_door) has_left_ = is_outside;
     passed_ = is_outside != outside_ && by_door;
     crossed_at_s_ = before_s + was_beyond / (was_beyond - beyond) * (time_s - before_s);
   }

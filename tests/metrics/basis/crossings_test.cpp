@@ -46,6 +46,20 @@ TEST(Crossings, LeavingElsewhereAndReturningThroughTheDoorIsAnEntry) {
   EXPECT_EQ(net_crossings({{-1, 5}, {1, 5}, {1, 0}, {-1, 0}}), -1);
 }
 
+TEST(Crossings, SomebodyWhoWalksAroundTheBuildingOutsideHasLeft) {
+  const ExitLine line(door(2), 0.2, 0.2);
+  CrossingCounter counter;
+  for (const Vector2d& position : {Vector2d(-1, 0), Vector2d(1, 0), Vector2d(1, 30)}) {
+    counter.step(line, position);
+  }
+  counter.step(line, {-5, 30});
+  EXPECT_TRUE(counter.has_left());
+  counter.step(line, {1, 30});
+  counter.step(line, {1, 0});
+  counter.step(line, {-1, 0});
+  EXPECT_FALSE(counter.has_left()) << "back through the door";
+}
+
 TEST(Crossings, JitterOnTheLineCountsOnceAtMost) {
   Random random(5, Stream::motion);
   for (int trial = 0; trial < 200; ++trial) {
