@@ -36,8 +36,10 @@ constexpr std::array<Bone, 10> kBones = {{{0, 1, 0.03},
                                           {11, 12, 0.04},
                                           {11, 13, 0.08},
                                           {12, 14, 0.08},
-                                          {5, 7, 0.15},
-                                          {6, 8, 0.15}}};
+                                          // Arms that are thrown up come down in a linear blend,
+                                          // by 140 degrees: a third of their length is left.
+                                          {5, 7, 0.17},
+                                          {6, 8, 0.17}}};
 
 /// The bytes of "#rrggbb".
 std::optional<std::array<std::uint8_t, 3>> rgb_of_hex(const std::string& text) {

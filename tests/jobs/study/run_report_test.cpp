@@ -167,9 +167,11 @@ TEST(RunReport, ADoorThatNobodyWantedToPassHasNoFlow) {
   const world::Scenario scenario = metrics::place_with_door(2);
   std::vector<MeasuredRun> runs;
   runs.push_back(measured("calm", metrics::make_trace({metrics::standing({-9, 0})}), scenario));
-  EXPECT_NE(html_report(scenario, runs)
-                .find("<td>door</td><td>2.00</td><td>0 / 0</td><td></td><td></td>"),
-            std::string::npos);
+  EXPECT_NE(
+      html_report(scenario, runs)
+          .find(
+              "<td>door</td><td>2.00</td><td>2.60 (nominal)</td><td>0 / 0</td><td></td><td></td>"),
+      std::string::npos);
 }
 
 }  // namespace
