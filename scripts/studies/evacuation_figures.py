@@ -87,7 +87,7 @@ def write_page(folder, spent, summary, other):
     cells = time_cells(other, 95)
     model = (
         f'With another pedestrian model (`"crowd": {{"model": "{OTHER_MODEL}"}}` in both cases) the same 40 runs give T95 '
-        f"{cells[0]} and {cells[1]}, a difference of {cells[2]} instead of {time_cells(summary, 95)[2]}."
+        f"{cells[0]} and {cells[1]},\na difference of {cells[2]} instead of {time_cells(summary, 95)[2]}."
     )
     page = replace_passage(page, "run", [run])
     page = replace_passage(page, "designs", [duration, "", *table])
