@@ -9,6 +9,7 @@
 
 #include "crowd/behavior/exit_choice.h"
 #include "crowd/behavior/machine.h"
+#include "crowd/spatial/door_line.h"
 
 namespace throng::crowd {
 
@@ -19,8 +20,7 @@ using Eigen::Vector2f;
 struct ClosingDoorSpec {
   std::uint32_t obstacle_class = 0;
   double from_s = 0;
-  Vector2f from = Vector2f::Zero();
-  Vector2f to = Vector2f::Zero();
+  DoorLine line{Vector2f::Zero(), Vector2f::Zero()};
   float sight_m = 40;
 };
 
@@ -42,8 +42,12 @@ class ClosingDoor : public Process {
   void after_motion(Crowd& crowd, Machine&) override {
     if (!closed_) return;
     Agents& agents = crowd.agents;
+    constexpr LineMargins kMargins{.open = 0, .walls = 0.3F};
     for (const auto& [agent, before] : near_) {
-      if (!crosses(crowd, agent, before)) continue;
+      const std::uint32_t walls = agents.obstacle_mask[agent] & ~spec_.obstacle_class;
+      if (!crosses(spec_.line, before, agents.position[agent], kMargins, crowd.obstacles, walls)) {
+        continue;
+      }
       agents.position[agent] = before;
       agents.velocity[agent].setZero();
     }
@@ -86,7 +90,7 @@ class ClosingDoor : public Process {
     const std::uint32_t others = crowd.agents.obstacle_mask[agent] & ~spec_.obstacle_class;
     constexpr std::array kShares = {0.5F, 0.2F, 0.8F};  // of the line: a pillar may hide its middle
     return std::any_of(kShares.begin(), kShares.end(), [&](float share) {
-      const Vector2f point = spec_.from + share * (spec_.to - spec_.from);
+      const Vector2f point = spec_.line.from + share * (spec_.line.to - spec_.line.from);
       return (point - eye).squaredNorm() < spec_.sight_m * spec_.sight_m &&
              crowd.obstacles.visible(eye, point, 0, others);
     });
@@ -112,36 +116,13 @@ class ClosingDoor : public Process {
   void note_near(const Agents& agents) {
     constexpr float kReachM = 3;
     near_.clear();
-    const Vector2f middle = 0.5F * (spec_.from + spec_.to);
-    const float reach_m = 0.5F * (spec_.to - spec_.from).norm() + kReachM;
+    const Vector2f middle = 0.5F * (spec_.line.from + spec_.line.to);
+    const float reach_m = 0.5F * spec_.line.length_m() + kReachM;
     for (std::size_t i = 0; i < agents.count(); ++i) {
       if (agents.present[i] == 0 || agents.obstacle_mask[i] == 0) continue;
       if ((agents.position[i] - middle).squaredNorm() > reach_m * reach_m) continue;
       near_.emplace_back(i, agents.position[i]);
     }
-  }
-
-  /// Whether a step leads across the line, or beside it through the walls, into which soft bodies
-  /// may be pressed.
-  bool crosses(const Crowd& crowd, std::size_t agent, const Vector2f& before) const {
-    constexpr float kBesideM = 0.3F;
-    constexpr float kInWallM = 0.05F;
-    const Vector2f& after = crowd.agents.position[agent];
-    const Vector2f along = (spec_.to - spec_.from).normalized();
-    const Vector2f across(-along.y(), along.x());
-    const float was = across.dot(before - spec_.from);
-    const float is = across.dot(after - spec_.from);
-    if ((was >= 0) == (is >= 0)) return false;
-    const Vector2f at = before + was / (was - is) * (after - before);
-    const float place = along.dot(at - spec_.from);
-    const float length = (spec_.to - spec_.from).norm();
-    if (place < -kBesideM || place > length + kBesideM) return false;
-    if (place >= 0 && place <= length) return true;
-    const std::uint32_t others = crowd.agents.obstacle_mask[agent] & ~spec_.obstacle_class;
-    const auto is_wall = [&](const Vector2f& point) {
-      return crowd.obstacles.is_solid(point, others);
-    };
-    return is_wall(at + kInWallM * across) || is_wall(at - kInWallM * across);
   }
 
   ClosingDoorSpec spec_;
@@ -171,8 +152,8 @@ std::unique_ptr<Process> make_closing_door(const Element& element, const Behavio
   ClosingDoorSpec spec;
   spec.obstacle_class = static_cast<std::uint32_t>(attributes.integer("class"));
   spec.from_s = attributes.number("time");
-  spec.from = {attributes.real("from_x"), attributes.real("from_y")};
-  spec.to = {attributes.real("to_x"), attributes.real("to_y")};
+  spec.line.from = {attributes.real("from_x"), attributes.real("from_y")};
+  spec.line.to = {attributes.real("to_x"), attributes.real("to_y")};
   spec.sight_m = attributes.real("sight");
   return std::make_unique<ClosingDoor>(spec, context.seed);
 }

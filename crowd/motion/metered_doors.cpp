@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "crowd/spatial/door_line.h"
+
 namespace throng::crowd {
 
 namespace {
@@ -12,22 +14,14 @@ namespace {
 using Eigen::Vector2f;
 
 constexpr float kReachM = 3;
-constexpr float kBesideM = 0.3F;  // bodies reach beyond the ends
-constexpr float kJambM = 1;       // into which soft bodies may be pressed
-constexpr float kInWallM = 0.05F;
+constexpr LineMargins kMargins{.open = 0.3F, .walls = 1};
 constexpr float kBraking = 0.7F;  // of the greatest acceleration
 constexpr float kTicketS = 5;
 
-float along_m(const MeteredDoor& door, const Vector2f& place) {
-  return (door.to - door.from).normalized().dot(place - door.from);
-}
+DoorLine door_line(const MeteredDoor& door) { return {door.from, door.to}; }
 
 float outward_m(const MeteredDoor& door, const Vector2f& place) {
   return door.outward.dot(place - door.from);
-}
-
-bool is_beside(const MeteredDoor& door, float along, float margin_m) {
-  return along < -margin_m || along > (door.to - door.from).norm() + margin_m;
 }
 
 }  // namespace
@@ -38,6 +32,7 @@ MeteredDoors::MeteredDoors(std::vector<MeteredDoor> doors, std::size_t agent_cou
 }
 
 void MeteredDoors::hold(const Crowd& crowd, std::span<Vector2f> new_velocity) {
+  if (doors_.empty()) return;
   const auto dt_s = static_cast<float>(crowd.dt_s);
   for (std::size_t g = 0; g < doors_.size(); ++g) {
     const float gained = dt_s * doors_[g].per_s;
@@ -67,7 +62,8 @@ void MeteredDoors::find_near(const Crowd& crowd) {
       const MeteredDoor& door = doors_[g];
       const float outward = outward_m(door, agents.position[i]);
       if (std::abs(outward) > kReachM || (outward > 0 && !door.both_ways)) continue;
-      if (is_beside(door, along_m(door, agents.position[i]), kJambM)) continue;
+      const DoorLine line = door_line(door);
+      if (line.is_beside(line.along_m(agents.position[i]), kMargins.walls)) continue;
       const Vector2f way = outward > 0 ? Vector2f(-door.outward) : door.outward;
       near_.push_back({i, g, agents.position[i], way, std::abs(outward)});
     }
@@ -81,8 +77,8 @@ void MeteredDoors::hold(const Crowd& crowd, const Approach& near,
                         std::span<Vector2f> new_velocity) {
   Ticket& ticket = tickets_[near.agent];
   if (ticket.door == static_cast<std::int32_t>(near.door)) return;
-  const MeteredDoor& door = doors_[near.door];
-  if (is_beside(door, along_m(door, near.position), kBesideM)) return;
+  const DoorLine line = door_line(doors_[near.door]);
+  if (line.is_beside(line.along_m(near.position), kMargins.open)) return;
   Vector2f& velocity = new_velocity[near.agent];
   const float speed = velocity.dot(near.way);
   if (speed <= 0) return;
@@ -102,7 +98,10 @@ void MeteredDoors::hold(const Crowd& crowd, const Approach& near,
 void MeteredDoors::put_back(Crowd& crowd) {
   Agents& agents = crowd.agents;
   for (const Approach& near : near_) {
-    if (!crosses(crowd, near)) continue;
+    if (!crosses(door_line(doors_[near.door]), near.position, agents.position[near.agent], kMargins,
+                 crowd.obstacles, agents.obstacle_mask[near.agent])) {
+      continue;
+    }
     Ticket& ticket = tickets_[near.agent];
     if (ticket.door == static_cast<std::int32_t>(near.door)) {
       ticket = {};
@@ -111,21 +110,6 @@ void MeteredDoors::put_back(Crowd& crowd) {
     agents.position[near.agent] = near.position;
     agents.velocity[near.agent].setZero();
   }
-}
-
-/// Whether somebody has crossed the line, or its continuation in the walls beside it.
-bool MeteredDoors::crosses(const Crowd& crowd, const Approach& near) const {
-  const MeteredDoor& door = doors_[near.door];
-  const Vector2f& after = crowd.agents.position[near.agent];
-  const float beyond_m = near.way.dot(after - door.from);
-  if (beyond_m <= 0) return false;
-  const float share = near.distance_m / (near.distance_m + beyond_m);
-  const Vector2f at = near.position + share * (after - near.position);
-  if (!is_beside(door, along_m(door, at), kBesideM)) return true;
-  if (is_beside(door, along_m(door, at), kJambM)) return false;
-  const std::uint32_t walls = crowd.agents.obstacle_mask[near.agent];
-  return crowd.obstacles.is_solid(at + kInWallM * near.way, walls) ||
-         crowd.obstacles.is_solid(at - kInWallM * near.way, walls);
 }
 
 }  // namespace throng::crowd

@@ -13,7 +13,7 @@ namespace throng::crowd {
 
 /// The doors of a crowd. Each has a token bucket: at most 1 + rate * (t + dt) people are admitted
 /// in any time t. People who come nearer to a closed door than their radius brake before it;
-/// somebody who is admitted keeps the ticket until they have passed, or for some seconds if they
+/// an admitted person keeps the ticket until they have passed, or for some seconds if they
 /// turn away.
 class MeteredDoors {
  public:
@@ -41,7 +41,6 @@ class MeteredDoors {
   void find_near(const Crowd& crowd);
   void expire(float dt_s);
   void hold(const Crowd& crowd, const Approach& near, std::span<Eigen::Vector2f> new_velocity);
-  bool crosses(const Crowd& crowd, const Approach& near) const;
 
   std::vector<MeteredDoor> doors_;
   std::vector<float> tokens_;    // by door

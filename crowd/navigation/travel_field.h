@@ -42,7 +42,7 @@ class PortalTable {
   std::vector<std::vector<int>> into_;
 };
 
-/// How far it is to a polygon from points on each portal, at most 2 m apart (17 on wide portals),
+/// How far it is to a polygon from points on each portal, at most 4 m apart (9 on wide portals),
 /// by Dijkstra's algorithm from there. Const member functions may be called from several threads.
 class TravelField {
  public:

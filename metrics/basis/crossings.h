@@ -61,7 +61,7 @@ class CrossingCounter {
   int vanish();
   /// After step() returned a crossing: the interpolated time at which the person was on the line.
   double crossed_at_s() const { return crossed_at_s_; }
-  /// Whether the person has passed the door outward and not crossed its line again.
+  /// Whether the person has passed the door outward and has not come back through it.
   bool has_left() const { return has_left_; }
 
  private:

@@ -207,9 +207,10 @@ class Surrogate:
         return least_squares(errors, numpy.zeros(size), bounds=(-1, 1)).x
 
     def proposals(self, middle, half_width, used, random):
-        """Vectors in a box with which draws would be kept by the used quantities."""
+        """Vectors in a box, cut off at -1 and 1, with which draws would be kept by the used quantities."""
+        low, high = numpy.maximum(middle - half_width, -1), numpy.minimum(middle + half_width, 1)
         while True:
-            x = numpy.clip(middle + half_width * random.uniform(-1, 1, len(middle)), -1, 1)
+            x = random.uniform(low, high)
             values = self.values(x, random.standard_normal(len(self.names)))
             if is_kept({name: values[name] for name in used}):
                 yield x
