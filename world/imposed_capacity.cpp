@@ -52,7 +52,9 @@ double ImposedCapacity::per_s_at(double width_m) const {
   if (per_ms) return *per_ms * width_m;
   if (!device.empty()) return devices * rule_named(kDevices, device).device_per_s;
   const CapacityRule& rule = rule_named(kCodes, code);
-  return rule.per_ms * std::max(0.0, width_m - 2 * rule.boundary_m);
+  // Buildings may leave less of a door than its file says: it is narrow then, not closed.
+  constexpr double kMinPerS = 0.01;
+  return std::max(kMinPerS, rule.per_ms * (width_m - 2 * rule.boundary_m));
 }
 
 std::string ImposedCapacity::text() const {

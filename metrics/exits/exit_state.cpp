@@ -21,11 +21,8 @@ constexpr double kFreeSpeed = 0.6;    // of the desired speed: no slower than a 
 
 }  // namespace
 
-double nominal_capacity_per_s(double width_m) { return kSpecificFlow * width_m; }
-
 double capacity_per_s(const world::Exit& exit) {
-  return exit.capacity ? exit.capacity->per_s_at(exit.width_m())
-                       : nominal_capacity_per_s(exit.width_m());
+  return exit.capacity ? exit.capacity->per_s_at(exit.width_m()) : kSpecificFlow * exit.width_m();
 }
 
 std::string capacity_source(const world::Exit& exit) {

@@ -12,8 +12,6 @@ namespace throng::metrics {
 /// Capacity (people/s) of an exit: that which the scenario imposes, else the nominal one, 1.3 per
 /// meter of width and second.
 double capacity_per_s(const world::Exit& exit);
-/// The nominal capacity of a width.
-double nominal_capacity_per_s(double width_m);
 /// The source of an exit's capacity, for reports: "nominal", or as ImposedCapacity::text().
 std::string capacity_source(const world::Exit& exit);
 

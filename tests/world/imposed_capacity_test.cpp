@@ -15,7 +15,7 @@ double per_s_by_code(const std::string& code, double width_m) {
 
 TEST(ImposedCapacity, CodesCountTheirWidth) {
   EXPECT_NEAR(per_s_by_code("sfpe", 1.2), 1.32 * 0.9, 1e-12);
-  EXPECT_EQ(per_s_by_code("sfpe", 0.3), 0);
+  EXPECT_EQ(per_s_by_code("sfpe", 0.3), 0.01);
   EXPECT_NEAR(per_s_by_code("imo", 1.2), 1.56, 1e-12);
   EXPECT_NEAR(per_s_by_code("rimea", 2), 2.45, 1e-12);
 }

@@ -79,7 +79,7 @@ void check_capacity(const ImposedCapacity& capacity, double width_m, const json&
         "one of \"per_s\", \"per_ms\", \"code\" and \"device\"");
   } else if (value.contains("devices") && given[0] != "device") {
     place.below("devices").reject(describe(value["devices"]), "none without \"device\"");
-  } else if (!place.has_problem() && !(capacity.per_s_at(width_m) > 0)) {
+  } else if (!place.has_problem() && given[0] == "code" && capacity.per_s_at(width_m) <= kMinPerS) {
     place.below("code").reject(
         fmt::format("a door of {:g} m, of which this code counts nothing", width_m),
         "a wider door, or another capacity");
